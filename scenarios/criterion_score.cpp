@@ -50,6 +50,12 @@ void add_failed(const std::vector<CriterionScore>& criteria, const std::string& 
 
 }  // namespace
 
+double StepResult::possible() const {
+  double sum = 0;
+  for (const CriterionScore& m : criteria) sum += m.weight;
+  return counts ? sum : 0;
+}
+
 double StepResult::earned() const {
   double sum = 0;
   for (const CriterionScore& m : criteria) sum += m.points;

@@ -66,6 +66,7 @@ struct StepResult {
   int guide_times = 0;   ///< how often the guide to the step's view was shown; it costs no points
   double guide_s = 0;    ///< for how long in all
 
+  double possible() const;       ///< points that can be earned; 0 for a warm-up
   double earned() const;         ///< points of the criteria minus the cost of the hints, at least 0
   double lost_to_hints() const;  ///< at most the points of the criteria
   /// Returns the value of a metric in `values`, if it is there.

@@ -295,7 +295,7 @@ StepResult Runner::judge(StepOutcome outcome, double now) const {
     }
     std::optional<double> value = result.value(criterion.metric);
     if (scope == MetricScope::picture && result.judged) value = result.judged->of(criterion.metric);
-    result.criteria.push_back(score_criterion(criterion, value, asked.task->why_no_value()));
+    result.criteria.push_back(score_criterion(criterion, value, run_->why_no_value()));
   }
   return result;
 }

@@ -34,6 +34,33 @@ std::string in_words(std::string name) {
   return name;
 }
 
+std::string in_words(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::held:
+      return "view held";
+    case StepOutcome::done:
+      return "done";
+    case StepOutcome::went_on:
+      return "ended early by the learner";
+    case StepOutcome::timed_out:
+      return "time ran out";
+    case StepOutcome::scan_ended:
+      return "scan ended first";
+    case StepOutcome::skipped:
+      return "left out";
+    case StepOutcome::not_reached:
+      return "not reached";
+  }
+  return "";
+}
+
+std::string score_in_words(const StepResult& step) {
+  const double possible = step.possible(), earned = step.earned();
+  if (possible <= 0) return "does not count";
+  return short_number(earned) + " of " + short_number(possible) + " points" +
+         (!is_done(step.outcome) && earned > 0 ? " for what was reached" : "");
+}
+
 std::string percentage(const ExamResult& result) {
   const auto misleads = [&](const std::string& text) {
     return result.percent < result.pass_mark_percent && std::atof(text.c_str()) >= result.pass_mark_percent;

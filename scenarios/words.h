@@ -23,6 +23,13 @@ std::string title_of(Metric metric);
 /// Returns a structure's name as a person reads it: "right kidney".
 std::string in_words(std::string name);
 
+/// Returns how a step ended: "view held".
+std::string in_words(StepOutcome outcome);
+
+/// Returns a step's points: "2 of 3 points", and for one that was not done, that what was reached is scored. Returns
+/// "does not count" for a warm-up and for a step without criteria.
+std::string score_in_words(const StepResult& step);
+
 /// Returns the percentage with one digit after the point. A failed result gets as many digits as keep it below the pass
 /// mark, at most 12: "79.96".
 std::string percentage(const ExamResult& result);

@@ -23,6 +23,9 @@
 namespace insonate::ui {
 namespace {
 
+/// For how long a key that loses something may be pressed once more.
+constexpr double kAsked_s = 6;
+
 /// Whether an overlay keeps the learner from the scan behind it. The set-up has no session behind it, the briefing one
 /// that has not begun, and the score one that is over.
 bool covers(Overlay overlay) {
@@ -312,16 +315,18 @@ void Screen::toggle_effects(Trainer& trainer) {
 
 void Screen::begin_setup(Trainer& trainer) {
   const Session* session = trainer.session();
+  const double now_s = ImGui::GetTime();
   if (session && session->strict() && !session->result())
     show_note("This exam counts: go on to its end, then the tracker can be set up");
   else if (trainer.loses_by_leaving())
     show_note("Leave these steps first (Escape): the set-up would end them");
+  else if (trainer.loses_sweep() && now_s - std::exchange(asked_to_set_up_s_, now_s) > kAsked_s)
+    show_note("The set-up may lose the sweep: save it (U, then S), or press F2 once more");
   else
     trainer.begin_setup();
 }
 
 void Screen::switch_holder(Trainer& trainer) {
-  constexpr double kAsked_s = 6;
   Session& session = *trainer.session();
   if (session.strict() && !session.result()) return show_note("This exam counts: the probe stays with the tracker");
   if (session.only_learner()) return show_note("Mouse and keyboard move the probe already: there is no tracker");

@@ -189,7 +189,7 @@ private:
   CtPanel ct_panel_;
   LookPanel look_panel_;
   Aside aside_ = Aside::none;
-  double asked_to_switch_s_ = -1000;
+  double asked_to_switch_s_ = -1000, asked_to_set_up_s_ = -1000;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;

@@ -255,7 +255,7 @@ void Screen::leave(Trainer& trainer) {
       show_note("This exam counts: go on to its end, then it can be left");
     return;
   }
-  if (trainer.loses_by_leaving()) {
+  if (trainer.loses_by_leaving() || trainer.loses_sweep()) {
     show_page(Overlay::leave);
     return;
   }
@@ -336,7 +336,8 @@ void Screen::draw_overlay(Trainer& trainer) {
       break;
     }
     case Overlay::leave:
-      if (const std::optional<bool> leaves = draw_leave(theme_, screen_, places_)) {
+      if (const std::optional<bool> leaves =
+              draw_leave(theme_, screen_, trainer.loses_by_leaving(), trainer.loses_sweep(), places_)) {
         close_page();
         if (*leaves) trainer.leave();
       }

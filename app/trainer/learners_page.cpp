@@ -23,16 +23,14 @@ AttemptMode mode_of(const AttemptSummary& attempt) {
 }
 
 void add(LearnerLine& line, const AttemptSummary& attempt) {
-  line.best_percent = line.attempts == 0 ? attempt.percent : std::max(line.best_percent, attempt.percent);
+  double& best = line.best_percent.try_emplace(mode_of(attempt), attempt.percent).first->second;
+  best = std::max(best, attempt.percent);
   ++line.attempts;
   if (is_of(attempt.mode, AttemptMode::exam)) {
     ++line.exams;
     line.passed_exams += attempt.passed ? 1 : 0;
   }
-  if (attempt.finished_ms >= line.last_ms) {
-    line.last_ms = attempt.finished_ms;
-    line.last_percent = attempt.percent;
-  }
+  line.last_ms = std::max(line.last_ms, attempt.finished_ms);
 }
 
 /// Returns a score without the texts that the page does not show. Thousands are in memory at once.
@@ -116,7 +114,12 @@ void LearnersPage::choose_scenario(const std::string& digest) {
   choice_.scenario = std::any_of(scenarios_.begin(), scenarios_.end(), known) ? digest
                      : scenarios_.empty()                                     ? std::string()
                                                                               : scenarios_.front().digest;
-  if (!attempt()) choice_.attempt = attempts_.empty() ? 0 : attempts_.front().number;
+  if (const AttemptSummary* chosen = attempt(); !chosen || chosen->scenario_digest != choice_.scenario) {
+    const auto newest = std::find_if(attempts_.begin(), attempts_.end(), [&](const AttemptSummary& attempt) {
+      return attempt.scenario_digest == choice_.scenario;
+    });
+    choice_.attempt = newest == attempts_.end() ? 0 : newest->number;
+  }
   read_comments();
   begin_trend();
 }

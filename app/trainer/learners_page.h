@@ -26,8 +26,8 @@ struct LearnersChoice {
 struct LearnerLine {
   std::string id;  ///< empty: all learners
   int attempts = 0, exams = 0, passed_exams = 0;
-  double best_percent = 0, last_percent = 0;  ///< of all modes
-  std::int64_t last_ms = 0;                   ///< end of the last attempt
+  std::map<AttemptMode, double> best_percent;  ///< modes without an attempt are left out
+  std::int64_t last_ms = 0;                    ///< end of the last attempt
 };
 
 /// A scenario that the chosen learner has attempted.
@@ -113,6 +113,7 @@ public:
   /// Chooses the learner that many lines below the chosen one, or above it if negative.
   void move_choice(int lines);
   void choose_mode(std::optional<AttemptMode> mode);
+  /// Chooses a scenario, and its newest attempt unless one of its attempts is chosen.
   void choose_scenario(const std::string& digest);
   /// Chooses an attempt, and its scenario.
   void choose_attempt(std::int64_t number);

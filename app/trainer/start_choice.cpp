@@ -19,6 +19,11 @@ std::string StartPage::why_no_tracker() const {
   return chosen && !chosen->usable() ? chosen->why : "";
 }
 
+std::string StartPage::why_no_learner() const {
+  if (refused_learner_.empty()) return "";
+  return "Correct on the right who is learning: " + why_no_learner_id(refused_learner_) + ".";
+}
+
 std::string StartPage::why_no_exam() const {
   if (!scenario) return "Choose an exam.";
   if (database_.empty()) return "There is no database to keep the attempt in: start the trainer with --results.";
@@ -33,15 +38,18 @@ std::string StartPage::why_no_exam() const {
 
 std::string StartPage::why_not() const {
   switch (task) {
-    case Task::first_scan:
     case Task::demonstration:
     case Task::learners:
       return "";
+    case Task::first_scan:
+      return why_no_learner();
     case Task::practice:
-      return why_no_tracker();
+      return why_no_learner().empty() ? why_no_tracker() : why_no_learner();
     case Task::exam:
+      if (!why_no_learner().empty()) return why_no_learner();
       return why_no_exam().empty() ? why_no_tracker() : why_no_exam();
     case Task::patients:
+      if (!why_no_learner().empty()) return why_no_learner();
       return patient < patients_.size() ? why_no_tracker() : "Choose a patient.";
     case Task::replay:
       return run < runs_.size() ? "" : "Choose a run.";

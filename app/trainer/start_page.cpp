@@ -346,12 +346,10 @@ void StartPage::choose_tracker(const std::string& uri) {
 }
 
 void StartPage::choose_learner(const std::string& id) {
-  if (id.empty()) {
-    options_.learner = kNobodyInParticular;
-    return;
-  }
-  check_learner_id(id, "learner", "");
-  options_.learner = id;
+  refused_learner_ = id;
+  if (!id.empty()) check_learner_id(id, "learner", "");
+  options_.learner = id.empty() ? kNobodyInParticular : id;
+  refused_learner_.clear();
 }
 
 void StartPage::choose_landmarks(const fs::path& file) {

@@ -124,8 +124,11 @@ public:
 
   /// Throws InputError for a URI that no tracker has.
   void choose_tracker(const std::string& uri);
-  /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid.
+  /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid. Then nothing
+  /// that a learner does can begin until one is chosen.
   void choose_learner(const std::string& id);
+  /// Returns the id that was refused last; empty once a learner is chosen.
+  const std::string& refused_learner() const { return refused_learner_; }
   /// The set-up's files; empty: what is built in. Throw InputError for a file that cannot be used.
   void choose_calibration(const std::filesystem::path& file) { options_.calibration = file; }
   void choose_landmarks(const std::filesystem::path& file);
@@ -160,10 +163,12 @@ private:
   void list_trackers(const std::vector<FoundTracker>& found);
   void add_scenario(const std::filesystem::path& file);
   const OfferedTracker* chosen_tracker() const;
+  std::string why_no_learner() const;
   std::string why_no_tracker() const;
   std::string why_no_exam() const;
 
   Options options_;
+  std::string refused_learner_;
   std::filesystem::path database_;  ///< empty if there is none
   std::vector<OfferedScenario> scenarios_;
   std::vector<OfferedPatient> patients_;

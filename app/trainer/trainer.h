@@ -127,6 +127,8 @@ public:
   bool can_leave() const;
   /// Returns whether leaving throws something away: steps that are scored and not finished.
   bool loses_by_leaving() const;
+  /// Returns whether leaving throws away a sweep: one that runs, is reconstructed, or whose volume is not saved.
+  bool loses_sweep() const;
   /// Begins what is chosen on the start page, if nothing hinders it.
   void begin_chosen();
 
@@ -365,6 +367,7 @@ private:
   SweepRecorder sweep_;
   std::shared_ptr<const LoadedCase> sweep_case_;  ///< that the sweep is over
   std::shared_ptr<const SweptVolume> swept_;
+  bool swept_is_saved_ = false;
   bool recorded_ = false;                   ///< to the command line's file
   std::shared_ptr<const RawRecorder> raw_;  ///< of the newest session; nullptr when nobody asked for it
   bool clients_ = false, records_pictures_ = false, sweeps_ = false;  ///< who wanted pictures at the last frame

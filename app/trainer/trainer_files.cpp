@@ -30,6 +30,7 @@ void Trainer::notice_sweep() {
     std::shared_ptr<const SweptVolume> finished = sweep_.take_finished();
     if (!finished || sweep_case_ != loaded_case_) return;
     swept_ = std::move(finished);
+    swept_is_saved_ = false;
     notices_.push_back({"The swept volume is made: U shows it", {}});
   });
 }
@@ -39,6 +40,7 @@ void Trainer::save_swept() {
   attempt([&] {
     const std::filesystem::path file = free_path(name_of_saved(options_.out, "volumes"), ".nrrd");
     write_swept(file, *swept_);
+    swept_is_saved_ = true;
     notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
   });
 }

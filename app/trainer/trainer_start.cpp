@@ -20,6 +20,10 @@ bool Trainer::loses_by_leaving() const {
   return runner && runner->live().started && !session()->result() && !session()->source().recording();
 }
 
+bool Trainer::loses_sweep() const {
+  return session() && (sweep_.running() || sweep_.reconstructing() || (swept_ && !swept_is_saved_));
+}
+
 void Trainer::leave() {
   if (leads_to_check()) {
     const std::filesystem::path file = *checked_;

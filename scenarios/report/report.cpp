@@ -38,26 +38,6 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-const char* in_words(StepOutcome outcome) {
-  switch (outcome) {
-    case StepOutcome::held:
-      return "view held";
-    case StepOutcome::done:
-      return "done";
-    case StepOutcome::went_on:
-      return "left by the learner";
-    case StepOutcome::timed_out:
-      return "time ran out";
-    case StepOutcome::scan_ended:
-      return "scan ended first";
-    case StepOutcome::skipped:
-      return "left out";
-    case StepOutcome::not_reached:
-      return "not reached";
-  }
-  return "";
-}
-
 std::string outcome_chip(StepOutcome outcome) {
   return "<span class='outcome " + std::string(is_done(outcome) ? "good" : "bad") + "'>" + in_words(outcome) +
          "</span>";
@@ -104,7 +84,7 @@ std::string base64(std::string_view bytes) {
 }
 
 /// The learner's picture on the left, the reference picture on the right.
-std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pictures) {
+std::string pictures_of(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
   struct Place {
     ReportPicture::Kind kind;
     const char* caption;
@@ -113,12 +93,14 @@ std::string pictures_of(std::size_t step, const std::vector<ReportPicture>& pict
   };
   std::string html;
   bool any = false;
-  for (const Place& place : {Place{ReportPicture::Kind::best, "While the view was held best", "The view was not held",
-                                   "The learner's picture"},
-                             Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
+  const bool holds = step.value(Metric::longest_hold_s).has_value();
+  for (const Place& place :
+       {Place{ReportPicture::Kind::best, holds ? "While the view was held best" : "The learner's picture",
+              holds ? "The view was not held" : "No picture", "The learner's picture"},
+        Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
     const ReportPicture* shown = nullptr;
     for (const ReportPicture& picture : pictures)
-      if (picture.step == step && picture.kind == place.kind) shown = &picture;
+      if (picture.step == index && picture.kind == place.kind) shown = &picture;
     html += "<figure>";
     html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
                   : "<div class='missing'>" + std::string(place.missing) + "</div>";
@@ -135,17 +117,22 @@ std::string guide_in_words(const StepResult& step) {
          fixed(step.guide_s, 1) + " s of " + fixed(step.end_s - step.start_s, 1) + " s.";
 }
 
+/// Returns which picture was judged. Kinds of steps that hold no view judge one moment, such as a frozen picture.
+std::string judged_in_words(const StepResult& step) {
+  if (!step.judged_from_s) return "";
+  const std::string from = fixed(*step.judged_from_s, 1) + " s";
+  if (!step.value(Metric::longest_hold_s)) return "The picture at " + from + " was judged.";
+  return std::string(step.outcome == StepOutcome::held ? "Judged over the hold" : "Never held long enough: judged") +
+         " from " + from + " to " + fixed(*step.judged_to_s, 1) + " s.";
+}
+
 std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
   std::string html =
       "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
   if (step.outcome == StepOutcome::skipped) return html + "</section>\n";
   if (step.outcome != StepOutcome::not_reached) {
     html += "<p class='quiet'>From " + fixed(step.start_s, 1) + " s to " + fixed(step.end_s, 1) + " s. ";
-    if (step.judged_from_s)
-      html +=
-          std::string(step.outcome == StepOutcome::held ? "Judged over the hold" : "Never held long enough: judged") +
-          " from " + fixed(*step.judged_from_s, 1) + " s to " + fixed(*step.judged_to_s, 1) + " s.";
-    html += "</p>";
+    html += judged_in_words(step) + "</p>";
   }
   if (!step.counts) html += "<p class='quiet'>A warm-up, which does not count.</p>";
   if (step.hints_taken > 0)
@@ -154,31 +141,27 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
   if (step.guide_times > 0) html += "<p class='quiet'>" + guide_in_words(step) + "</p>";
   for (const auto& [what, fact] : step.facts)
     html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
-  return html + table(step.criteria) + pictures_of(index, pictures) + "</section>\n";
+  return html + table(step.criteria) + pictures_of(step, index, pictures) + "</section>\n";
 }
 
 /// One line per step, as a summary for the examiner.
 std::string overview(const ExamResult& result) {
-  const auto line = [](const std::string& name, const std::string& outcome, double time_s,
-                       const std::vector<CriterionScore>& criteria) {
-    double points = 0, possible = 0;
-    for (const CriterionScore& m : criteria) {
-      points += m.points;
-      possible += m.weight;
-    }
+  const auto line = [](const std::string& name, const std::string& outcome, double time_s, const StepResult& scored) {
+    const double possible = scored.possible();
     return "<tr><td>" + name + "</td><td>" + outcome + "</td><td class='number'>" + fixed(time_s, 1) +
-           " s</td><td class='number'>" +
-           (possible > 0 ? short_number(points) + " of " + short_number(possible) + bar(points / possible)
-                         : std::string("does not count")) +
-           "</td></tr>\n";
+           " s</td><td class='number'>" + score_in_words(scored) +
+           (possible > 0 ? bar(scored.earned() / possible) : "") + "</td></tr>\n";
   };
   std::string html = "<table class='overview'><tbody>\n";
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     html += line(std::to_string(i + 1) + ". " + escaped(step.title), outcome_chip(step.outcome),
-                 step.end_s - step.start_s, step.criteria);
+                 step.end_s - step.start_s, step);
   }
-  return html + line("Whole exam", "", result.motion.time_s, result.criteria) + "</tbody></table>";
+  StepResult whole;  // its criteria are those of a step that has no other properties
+  whole.outcome = StepOutcome::done;
+  whole.criteria = result.criteria;
+  return html + line("Whole exam", "", result.motion.time_s, whole) + "</tbody></table>";
 }
 
 std::string verdict(const ExamResult& result) {

@@ -34,6 +34,7 @@ public:
   }
   bool counts_as_done() const override { return point_.has_value(); }
   double share_done() const override { return point_ ? 1 : 0; }
+  std::string why_no_value() const override { return "nothing was pointed at."; }
 
   void finish(StepOutcome, double, StepResult& result) const override {
     if (!point_) return;

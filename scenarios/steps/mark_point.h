@@ -18,7 +18,6 @@ struct MarkPoint : StepTask {
 
   StepInput input() const override { return PointInput{}; }
   std::vector<Metric> metrics() const override { return {Metric::point_error_mm}; }
-  const char* why_no_value() const override { return "nothing was pointed at."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;

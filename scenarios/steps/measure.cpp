@@ -89,6 +89,10 @@ public:
   }
   bool counts_as_done() const override { return count() == asked_.slots(); }
   double share_done() const override { return double(count()) / asked_.slots(); }
+  std::string why_no_value() const override {
+    if (count() == 0) return "nothing was measured in a frozen picture.";
+    return "only " + std::to_string(count()) + " of " + std::to_string(asked_.slots()) + " lengths were measured.";
+  }
 
   void finish(StepOutcome, double, StepResult& result) const override {
     const Placed* last = last_placed();
@@ -96,6 +100,7 @@ public:
       result.judged = meter_->measure(last->patient_from_probe, last->depth_mm);
       result.judged_from_s = result.judged_to_s = last->time_s;
     }
+    if (last && asked_.slots() > 1) result.facts.emplace_back("lengths", lengths());
     if (!counts_as_done()) return;
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
@@ -129,6 +134,13 @@ private:
     for (const auto& placed : placed_)
       if (placed && (!last || placed->order > last->order)) last = &*placed;
     return last;
+  }
+  /// Returns the length of each slot that has one, in their order.
+  std::string lengths() const {
+    std::string lengths;
+    for (const auto& placed : placed_)
+      if (placed) lengths += (lengths.empty() ? "" : ", ") + fixed(caliper_length_mm(placed->action), 1) + " mm";
+    return lengths;
   }
   std::string with_unit(double value) const {
     // A distance uses the same unit for the measured and the true value, whatever their size.

@@ -51,7 +51,6 @@ struct Measure : StepTask {
   StepInput input() const override;
   std::vector<Metric> metrics() const override;
   bool judges_picture() const override { return true; }  ///< the frozen one
-  const char* why_no_value() const override { return "nothing was measured in a frozen picture."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;

@@ -26,6 +26,7 @@ public:
   }
   bool done() const override { return answer_.has_value(); }
   double share_done() const override { return done() ? 1 : 0; }
+  std::string why_no_value() const override { return answer_ ? "the answer is not a number." : "there was no answer."; }
 
   void finish(StepOutcome, double, StepResult& result) const override {
     if (!answer_) return;

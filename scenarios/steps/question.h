@@ -31,7 +31,6 @@ struct Question : StepTask {
 
   StepInput input() const override { return AnswerInput{answer, choices, unit}; }
   std::vector<Metric> metrics() const override;
-  const char* why_no_value() const override { return "there was no answer."; }
   void check(const Step& step, const LabelIndex& labels, const std::string& where,
              std::vector<Mistake>& problems) const override;
   StepBegin prepare(const StepWorld& world) const override;

@@ -60,6 +60,9 @@ public:
   virtual double share_done() const { return 0; }
   virtual bool on_target() const { return false; }
 
+  /// Returns the reason that a report gives for a criterion without a value.
+  virtual std::string why_no_value() const { return "there was no valid pose to judge."; }
+
   /// Fills the fields that depend on the kind: judged, longest_hold_s, values, facts.
   virtual void finish(StepOutcome outcome, double now_s, StepResult& result) const = 0;
 };
@@ -84,8 +87,6 @@ public:
   virtual bool judges_picture() const { return false; }
   /// Returns the machine settings that the task asks the learner to change.
   virtual std::vector<ActionKind> settings() const { return {}; }
-  /// Returns the reason that a report gives for a criterion without a value.
-  virtual const char* why_no_value() const { return "there was no valid pose to judge."; }
   /// Adds problems for everything that does not fit the case.
   /// @param where  "step 2"
   virtual void check(const Step&, const LabelIndex&, const std::string& /*where*/, std::vector<Mistake>&) const {}

@@ -116,6 +116,33 @@ TEST_CASE("the report names the verdict, its reasons, and each criterion with va
   CHECK_FALSE(scan(70).result.passed);
 }
 
+TEST_CASE("a step that was ended early has the same points in each place, and the words for them") {
+  StepResult step;
+  step.title = "Early";
+  step.outcome = StepOutcome::went_on;
+  step.criteria = {{Metric::plane_distance_mm, 5, 20, 2, false, 1.0, 2, "1.0 mm: full points."},
+                   {Metric::longest_hold_s, 1, 0, 1, false, 0.0, 0, "0.00 s: nothing."}};
+  CHECK(score_in_words(step) == "2 of 3 points for what was reached");
+  step.hints_taken = 1;
+  step.hint_cost = 0.5;
+  CHECK(score_in_words(step) == "1.5 of 3 points for what was reached");
+  ExamResult result;
+  StepResult warm_up = step;
+  warm_up.counts = false;
+  result.steps = {step, warm_up};
+  decide(result);
+  CHECK(result.points == 1.5);
+  const std::string html = report_html(result, {});
+  const std::string overview = html.substr(html.find("class='overview'"));
+  CHECK(overview.find("1.5 of 3 points for what was reached") < overview.find("2. Early"));
+  CHECK(overview.find("does not count") > overview.find("2. Early"));
+  CHECK(html.find("ended early by the learner") != std::string::npos);
+
+  for (StepResult& done : result.steps) done.outcome = StepOutcome::done;
+  CHECK(score_in_words(result.steps[0]) == "1.5 of 3 points");
+  CHECK(score_in_words(result.steps[1]) == "does not count");
+}
+
 TEST_CASE("the report draws the scan over time and in space, and needs no other file") {
   const Scan one = scan(0);
   const std::string html = report_html(one.result, one.trace);

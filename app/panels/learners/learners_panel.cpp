@@ -98,6 +98,15 @@ bool draw_row(const Theme& theme, const Rect& row, const char* id, const RowText
   return clicked;
 }
 
+/// Returns the best score of each kind of attempt. Recorded scans are somebody's only where there is nothing else.
+std::string best_of(const LearnerLine& learner) {
+  std::string text;
+  for (const auto& [mode, percent] : learner.best_percent)
+    if (mode != AttemptMode::recording || learner.best_percent.size() == 1)
+      text += (text.empty() ? "" : ", ") + name_of(mode) + " " + fixed(percent, 1);
+  return text + " %";
+}
+
 RowTexts texts_of(const LearnerLine& learner) {
   RowTexts texts;
   texts.upper = learner.id.empty() ? "All learners" : learner.id;
@@ -106,7 +115,7 @@ RowTexts texts_of(const LearnerLine& learner) {
     texts.lower +=
         ", " + std::to_string(learner.passed_exams) + "/" + counted(learner.exams, "exam", "exams") + " passed";
   if (learner.attempts > 0) {
-    texts.upper_right = "best " + fixed(learner.best_percent, 1) + ", last " + fixed(learner.last_percent, 1) + " %";
+    texts.upper_right = best_of(learner);
     texts.lower_right = time_text(learner.last_ms / 1000).substr(0, 10);
   }
   return texts;
@@ -191,6 +200,7 @@ void LearnersPanel::draw_learners(const Theme& theme, const Rect& panel, Learner
     const std::string id = learner.id.empty() ? "all_learners" : "learner_" + learner.id;
     if (area.shows_all_of(row)) (*places_)[id] = row;
     if (draw_row(theme, row, id.c_str(), texts_of(learner), chosen)) clicked = learner.id;
+    draw_tooltip(theme, row, "The best score of each kind of attempt");
   }
   if (clicked) page.choose_learner(*clicked);
 }

@@ -155,12 +155,18 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   return answer;
 }
 
-std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
-  Rect sheet = begin_overlay(theme, screen, {theme.px(520), theme.px(176)});
-  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Leave these steps?");
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool steps, bool sweep,
+                               std::map<std::string, Rect>& places) {
+  Rect sheet = begin_overlay(theme, screen, {theme.px(520), theme.px(steps && sweep ? 200 : 176)});
+  draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText,
+            steps ? "Leave these steps?" : "Leave without saving the sweep?");
   sheet.take_top(theme.px(10));
-  draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
-            "They are not finished: nothing of them is scored or kept.");
+  if (steps)
+    draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
+              "They are not finished: nothing of them is scored or kept.");
+  if (sweep)
+    draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
+              "The volume of the last sweep is lost. To save it: stay, then U and S.");
   Rect buttons = sheet.take_bottom(theme.px(38));
   std::optional<bool> answer;
   places["leave"] = buttons.take_right(theme.px(150));

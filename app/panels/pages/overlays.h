@@ -37,8 +37,11 @@ enum class BriefingAnswer { none, start, leave };
 BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scenario& scenario, bool counts,
                              const std::string& learner, std::map<std::string, Rect>& places);
 
-/// Asks whether the steps that are not finished are to be left. Returns the answer once there is one.
+/// Asks whether to leave what is lost by it. Returns the answer once there is one.
+/// @param steps  steps are not finished
+/// @param sweep  a sweep is not saved
 /// @param places  receives the buttons' rectangles
-std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places);
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool steps, bool sweep,
+                               std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

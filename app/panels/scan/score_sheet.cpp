@@ -1,7 +1,6 @@
 #include "app/panels/scan/score_sheet.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/panels/pages/overlays.h"
 #include "app/panels/scan/exam_panel.h"
@@ -11,26 +10,8 @@ namespace insonate::ui {
 namespace {
 
 std::string outcome_text(const StepResult& step) {
-  char text[64];
-  switch (step.outcome) {
-    case StepOutcome::held:
-      std::snprintf(text, sizeof text, "held after %.1f s", step.end_s - step.start_s);
-      return text;
-    case StepOutcome::done:
-      std::snprintf(text, sizeof text, "done after %.1f s", step.end_s - step.start_s);
-      return text;
-    case StepOutcome::went_on:
-      return "left undone";
-    case StepOutcome::timed_out:
-      return "time ran out";
-    case StepOutcome::scan_ended:
-      return "the scan ended first";
-    case StepOutcome::skipped:
-      return "left out";
-    case StepOutcome::not_reached:
-      return "not reached";
-  }
-  return {};
+  const std::string after = is_done(step.outcome) ? " after " + fixed(step.end_s - step.start_s, 1) + " s" : "";
+  return in_words(step.outcome) + after + "; " + score_in_words(step);
 }
 
 struct Columns {
@@ -79,6 +60,13 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
   draw_tooltip(theme, row, mark.why);
 }
 
+/// What the step has found out besides values, such as what was measured.
+void draw_fact(const Theme& theme, Rect row, const std::pair<std::string, std::string>& fact) {
+  const std::string name = in_words(fact.first) + ": ";
+  draw_text(row.take_left(text_width(theme.small_text, name) + 1), theme.small_text, colour::kMuted, name);
+  draw_text(row, theme.small_text, colour::kText, fact.second);
+}
+
 void draw_column_titles(const Theme& theme, const Rect& row) {
   const Columns columns = columns_of(theme, row);
   draw_text(columns.value, theme.small_text, colour::kFaint, "Value", Align::right);
@@ -106,7 +94,7 @@ std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) 
 
 std::size_t row_count(const ExamResult& result) {
   std::size_t rows = result.steps.size() + 1 + result.criteria.size();
-  for (const StepResult& step : result.steps) rows += step.criteria.size();
+  for (const StepResult& step : result.steps) rows += step.facts.size() + step.criteria.size();
   return rows;
 }
 
@@ -114,6 +102,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
+    for (const auto& fact : step.facts) draw_fact(theme, rows.take_top(height), fact);
     for (const CriterionScore& mark : step.criteria) draw_mark(theme, rows.take_top(height), mark);
   }
   if (result.criteria.empty()) return;

@@ -125,20 +125,24 @@ void StartPanel::draw_learner(const Theme& theme, Rect panel, StartPage& page, c
   const bool nobody = page.learner() == kNobodyInParticular;
   if (std::exchange(learner_was_open_, learner_.is_open()) && !learner_.is_open())
     attempt([&] { page.choose_learner(typed_learner_); });
-  if (!learner_.is_open()) typed_learner_ = page.learner() == kNobodyInParticular ? "" : page.learner();
+  const bool refused = !page.refused_learner().empty();
+  if (!learner_.is_open()) typed_learner_ = refused ? page.refused_learner() : nobody ? "" : page.learner();
   const Rect field = rest.take_top(theme.px(36));
   (*places_)["learner_field"] = field;
   ImGui::PushID("learner");
   typed_learner_ = learner_.draw(theme, field, typed_learner_, "An id that is not a name, such as L-07");
   ImGui::PopID();
+  if (refused && !learner_.is_open()) outline(field, colour::kAmber, theme.px(4));
   rest.take_top(theme.px(8));
-  std::vector<Choice> choices{{"learner_nobody", "Nobody", nobody ? ButtonKind::chosen : ButtonKind::normal}};
+  std::vector<Choice> choices{
+      {"learner_nobody", "Nobody", nobody && !refused ? ButtonKind::chosen : ButtonKind::normal}};
   std::vector<std::string> ids{""};
   constexpr std::size_t kMost = 24;  // what flows into the rows
   for (const std::string& id : page.learners()) {
     if (choices.size() > kMost) break;
     if (learner_.is_open() && id.find(typed_learner_) == std::string::npos) continue;
-    choices.push_back({"learner_" + id, id, id == page.learner() ? ButtonKind::chosen : ButtonKind::normal});
+    choices.push_back(
+        {"learner_" + id, id, id == page.learner() && !refused ? ButtonKind::chosen : ButtonKind::normal});
     ids.push_back(id);
   }
   if (const auto clicked = flow_of_choices(theme, rest, choices, *places_)) {

@@ -66,13 +66,12 @@ TEST_CASE("the page of learners has a line for all and one for each, with best, 
   CHECK(all.attempts == 4);
   CHECK(page.learners()[1].id == "L-01");
   CHECK(page.learners()[1].exams == 0);
-  CHECK(page.learners()[1].best_percent == 40);
+  CHECK(page.learners()[1].best_percent == std::map<AttemptMode, double>{{AttemptMode::practice, 40}});
   CHECK(second.id == "L-02");
   CHECK(second.attempts == 3);
   CHECK(second.exams == 2);
   CHECK(second.passed_exams == 1);
-  CHECK(second.best_percent == 90);
-  CHECK(second.last_percent == 60);  // by time, not in the order of writing
+  CHECK(second.best_percent == std::map<AttemptMode, double>{{AttemptMode::exam, 80}, {AttemptMode::practice, 90}});
   CHECK(second.last_ms == 1'795'284'309'250 + 3 * 60'000);
 }
 
@@ -114,6 +113,15 @@ TEST_CASE("a learner's attempts are there newest first, with the trend of a scen
   CHECK(trend.spreads.empty());
   REQUIRE(trend.criteria.size() == 1);
   CHECK(trend.criteria[0].shares == std::vector<std::optional<double>>{0.25, 0.5, 0.75});
+
+  INFO("a scenario brings its newest attempt");
+  page.choose_scenario(page.scenarios()[1].digest);
+  CHECK(page.choice().attempt == 5);
+  page.choose_scenario(page.scenarios()[0].digest);
+  CHECK(page.choice().attempt == 4);
+  page.choose_attempt(3);
+  page.choose_scenario(page.scenarios()[0].digest);
+  CHECK(page.choice().attempt == 3);
 
   INFO("an attempt brings its scenario, a mode leaves the others out, and what is chosen stays if it can");
   page.choose_attempt(5);

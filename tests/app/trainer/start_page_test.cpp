@@ -185,6 +185,15 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   CHECK_FALSE(page.chosen().options.seed);  // drawn by chance
   CHECK_THROWS_AS(page.choose_learner("Ada Lovelace"), InputError);
   CHECK(page.learner() == "L-08");
+  CHECK(page.refused_learner() == "Ada Lovelace");
+  for (const Task task : {Task::first_scan, Task::practice, Task::exam, Task::patients}) {
+    page.task = task;
+    CHECK(page.why_not().find("'Ada Lovelace' is not an opaque id") != std::string::npos);
+  }
+  page.task = Task::practice;
+  page.choose_learner("L-08");
+  CHECK(page.refused_learner().empty());
+  CHECK(page.why_not() == "");
 
   INFO("the attempt can be looked at again");
   page.task = Task::replay;

@@ -85,6 +85,13 @@ await "the exams are there" is start_task exam
 contains start_why_not "who is learning" || fail "the page does not say what is missing: $(value start_why_not)"
 click_on learner_field
 await "the field takes text" is typing true
+xdotool type "L/07"
+xdotool key Return
+await "the id is refused" is overlay problem
+xdotool key Return
+await "the page says what to correct" contains start_why_not "'L/07' is not an opaque id"
+click_on learner_field
+await "the field takes text" is typing true
 xdotool type "L-07"
 xdotool key Return
 await "the learner is known" is start_learner L-07

@@ -85,6 +85,19 @@ xdotool key Home
 await "Home turns them back" is planes_turned_deg 0.0
 is planes_x "$px" || fail "the point is elsewhere: $px, $(value planes_x)"
 
+echo "a volume that is not saved is asked for before it is lost"
+xdotool key Escape
+await "the page is closed" is overlay ""
+xdotool key Escape
+await "it asks" is overlay leave
+xdotool key Escape
+await "Escape stays" is overlay ""
+xdotool key F2
+await "F2 asks too" contains toast "lose the sweep"
+is activity practice || fail "the set-up has begun"
+xdotool key u
+await "the volume is still there" is overlay volume
+
 echo "S saves the volume, Escape goes back to the scan"
 xdotool key s
 await "a message names the file" contains toast "Saved"
@@ -98,4 +111,6 @@ xdotool key u
 await "U opens it again" is overlay volume
 xdotool key u
 await "and closes it" is overlay ""
+xdotool key Escape
+await "a saved volume needs no question" is_not start_task ""
 echo "passed"

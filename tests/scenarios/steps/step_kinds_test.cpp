@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
 #include "tests/scenarios/tiny_exam.h"
@@ -114,6 +115,30 @@ TEST_CASE("what is taken back was never placed") {
   CHECK(scored(names, 3, {{1.0, {label, ball}}, {2.0, {kGoOn}}}).steps[0].outcome == StepOutcome::went_on);
 }
 
+TEST_CASE("a measurement that is not complete has its lengths and its reason, and no word of holding a view") {
+  const Scenario exam = exam_of(step("measure",
+                                     "view = \"ball\"\ntool = \"volume\"\nwalls = \"outer\"\n[[step.target]]\n"
+                                     "structures = [\"ball\"]",
+                                     "measurement_error_percent", "full = 5\nzero = 50"));
+  const auto measured = [&](const std::vector<Action>& placed) {
+    return scored(exam, 3, {{1.0, {kFreeze}}, {1.5, placed}, {2.0, {kGoOn}}});
+  };
+  const Action depth = caliper(1, 0, 40, 0, 80), width = caliper(3, -20, 60, 10, 60);
+  const ExamResult two = measured({depth, width});
+  CHECK(two.steps[0].criteria[0].why == "only 2 of 3 lengths were measured.");
+  CHECK(two.steps[0].facts == std::vector<std::pair<std::string, std::string>>{{"lengths", "40.0 mm, 30.0 mm"}});
+  CHECK(measured({}).steps[0].criteria[0].why == "nothing was measured in a frozen picture.");
+  CHECK(measured({depth, caliper(2, -20, 60, 20, 60), width}).steps[0].facts[0].second == "40.0 mm, 40.0 mm, 30.0 mm");
+
+  ReportSubject subject;
+  subject.pictures = {{0, ReportPicture::Kind::reference, "ref"}};
+  const std::string html = report_html(result_from_json(to_json(two), "x"), {}, subject);
+  const std::string body = html.substr(html.find("<body>"));
+  CHECK(body.find("lengths: 40.0 mm, 30.0 mm") != std::string::npos);
+  CHECK(body.find("The picture at 1.5 s was judged.") != std::string::npos);
+  CHECK(body.find("held") == std::string::npos);
+}
+
 TEST_CASE("areas, ratios and volumes are measured against the label map") {
   const std::string target = "[[step.target]]\nstructures = [\"ball\"]\n";
   const auto relative_error = [&](const std::string& tool, const std::string& targets,
@@ -194,6 +219,7 @@ TEST_CASE("the first answer counts, and what is right may be what the patient ha
   CHECK(*off("32.5").value(Metric::answer_right_percent) == 0);
   CHECK(off("32.5").criteria[0].points == Approx(0.75));
   CHECK_FALSE(off("thirty").value(Metric::answer_error));
+  CHECK(off("thirty").criteria[0].why == "the answer is not a number.");
 
   const Scenario text =
       exam_of(step("question", "answer = \"text\"") + step("free_scan", "", "time_s", "full = 1\nzero = 9"));
