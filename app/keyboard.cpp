@@ -186,8 +186,12 @@ void Keyboard::set_up(const KeyEvent& pressed, Trainer& trainer) {
 }
 
 /// Handles the keys that work on every page. Returns whether this was one.
-bool Keyboard::open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen) {
+bool Keyboard::open_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen) {
   using ui::Overlay;
+  if (pressed.key == GLFW_KEY_Q && (pressed.modifiers & GLFW_MOD_CONTROL)) {
+    if (pressed.kind == KeyEvent::Kind::pressed) screen.quit(trainer);
+    return true;
+  }
   const bool question = pressed.key == GLFW_KEY_SLASH && (pressed.modifiers & GLFW_MOD_SHIFT);
   const bool help = pressed.key == GLFW_KEY_F1 || (question && !screen.types_text(trainer));
   const bool settings = pressed.key == GLFW_KEY_F3, full_screen = pressed.key == GLFW_KEY_F11;

@@ -47,7 +47,7 @@ private:
   void dispatch(Trainer& trainer, ui::Screen& screen, double until_s);
   bool type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
   void press(const KeyEvent& event, Trainer& trainer, ui::Screen& screen);
-  bool open_page(const KeyEvent& pressed, const Trainer& trainer, ui::Screen& screen);
+  bool open_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void choose(int index, Trainer& trainer);
   static void start_page(const KeyEvent& pressed, Trainer& trainer, ui::Screen& screen);
   static void learners_page(const KeyEvent& pressed, LearnersPage& page, Trainer& trainer, ui::Screen& screen);

@@ -52,6 +52,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
   Json state;
   state["overlay"] = to_string(screen.overlay(trainer));
   state["toast"] = screen.toast().text();
+  state["cut_texts"] = screen.cut_texts();
   state["problem"] = trainer.problems().empty() ? "" : trainer.problems().front();
   state["shader_problem"] = trainer.shader_problem();
   state["calibration_warning"] = trainer.calibration_warning();

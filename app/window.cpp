@@ -152,7 +152,7 @@ public:
 
   /// Returns the exit code.
   int run() {
-    while (!glfwWindowShouldClose(window_) && !trainer_.is_over()) {
+    while (!glfwWindowShouldClose(window_) && !trainer_.is_over() && !screen_.quits()) {
       wait();
       const double now_s = steady_now_s();
       step(now_s);

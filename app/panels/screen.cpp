@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -59,7 +60,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   Rect rest = screen_.inset(gap, gap);
   rest.h += gap;
   status_ = rest.take_bottom(theme_.px(38));
-  top_ = rest.take_top(theme_.px(66));
+  top_ = rest.take_top(exam_panel_height(theme_, rest.w, trainer.session()));
   rest.take_top(gap);
   strip_ = task_ = {};
   if (trainer.demonstration()) {
@@ -74,10 +75,11 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   }
   guide_ = {};
   if (trainer.session() && trainer.guide().now(*trainer.session())) {
-    guide_ = rest.take_top(guide_strip_height(theme_));
+    guide_ = rest.take_top(guide_strip_height(theme_, rest.w));
     rest.take_top(gap);
   }
-  console_ = rest.take_bottom(theme_.px(trainer.replay() ? 272 : 120));  // a replay has charts below its time line
+  // A replay has charts below its time line.
+  console_ = rest.take_bottom(trainer.replay() ? theme_.px(272) : console_height(theme_, rest.w));
   rest.take_bottom(gap);
   const bool anatomy = !trainer.session() || trainer.session()->shows_anatomy();
   const bool recorded = trainer.replay() && trainer.replay()->run().images;
@@ -137,6 +139,7 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
   draw_toast(trainer);
   trainer.cover(covers(overlay(trainer)));
   ImGui::Render();
+  cut_texts_ = take_cut_texts();
   if (times) times->end(FramePart::layout);
   const bool changed = canvas_.draw(*ImGui::GetDrawData(), colour::kBackground, [&](ImTextureID texture) {
     const GLuint name = GLuint(reinterpret_cast<std::uintptr_t>(texture));
@@ -417,20 +420,34 @@ void Screen::draw_time_runs_on(const Session& session) {
 }
 
 /// In the 3D view, above its buttons and axes, so that the ultrasound stays free. If it is hidden, in the view that is
-/// large, or at the bottom of a page.
+/// large. On a page, over the line of keys at its bottom, so that its buttons stay free.
 Rect Screen::toast_place() const {
   const Rect space = place(View::space);
-  const Rect around = space.h > 0 ? space : views_.empty() ? screen_ : views_.begin()->second;
+  if (views_.empty()) return {screen_.x, screen_.y, screen_.w, screen_.h - theme_.px(2)};
+  const Rect around = space.h > 0 ? space : views_.begin()->second;
   return {around.x, around.y, around.w, around.h - theme_.px(space.h > 0 ? 76 : 56)};
+}
+
+void Screen::show_on_desktop(const std::filesystem::path& path) {
+  opening_ = open_on_desktop(path);
+  opened_ = path;
+}
+
+/// Says where a file lies that no program of the desktop has shown.
+void Screen::note_unopened() {
+  using namespace std::chrono_literals;
+  if (!opening_.valid() || opening_.wait_for(0s) != std::future_status::ready) return;
+  if (!opening_.get()) show_note("No program of this computer opens it. It is " + opened_.string());
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.
 void Screen::draw_toast(const Trainer& trainer) {
+  note_unopened();
   const bool reads = top_page() != Overlay::none && top_page() != Overlay::volume;
   if (reads && overlay(trainer) == top_page()) return toast_.wait();
   toast_is_aside_ = place(View::space).w > 0;
   const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
-  if (!file.empty()) open_on_desktop(file.parent_path());
+  if (!file.empty()) show_on_desktop(file.parent_path());
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
@@ -527,13 +544,19 @@ void Screen::draw_status(Trainer& trainer) {
     draw_text(line, theme_.small_text, quality.flaws.empty() ? colour::kMuted : colour::kAmber, words);
     return;
   }
-  const std::string keys =
-      trainer.replay()
-          ? "Space play    \u2190 \u2192 sample by sample    \u2191 \u2193 speed    Home End    Ctrl O open"
-      : trainer.session() && trainer.session()->strict()
-          ? "F1 help    Space freeze    P picture    L clip"
-          : "F1 help    Tab probe    Space freeze    P picture    L clip    V view";
-  draw_text(line, theme_.small_text, colour::kMuted, keys);
+  using Keys = std::vector<std::string>;
+  const Keys keys = trainer.replay() ? Keys{"Space play", "\u2190 \u2192 sample by sample", "\u2191 \u2193 speed",
+                                            "Home End", "Ctrl O open"}
+                    : trainer.session() && trainer.session()->strict()
+                        ? Keys{"F1 help", "Space freeze", "P picture", "L clip"}
+                        : Keys{"F1 help", "Tab probe", "Space freeze", "P picture", "L clip", "V view"};
+  // The help has all of them, so those that do not fit are left out.
+  for (const std::string& key : keys) {
+    const float width = text_width(theme_.small_text, key);
+    if (width > line.w) break;
+    draw_text(line.take_left(width), theme_.small_text, colour::kMuted, key);
+    line.take_left(theme_.px(16));
+  }
 }
 
 /// Says that a recorded scan is watched, and offers what to do instead, then what to do next.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -101,6 +102,10 @@ public:
   const VolumePage& volume_page() const { return volume_page_; }
   /// Goes back to the start page. Asks first if steps would be left unfinished.
   void leave(Trainer& trainer);
+  /// Ends the program. Asks first if steps would be left unfinished; an exam that counts has to be ended before.
+  void quit(Trainer& trainer);
+  /// Returns whether the program is to end.
+  bool quits() const { return quits_; }
   /// Closes the overlay without an answer, as Escape does.
   void dismiss(Trainer& trainer);
   /// Answers the overlay as Enter does.
@@ -126,6 +131,8 @@ public:
   long pixels_drawn() const { return canvas_.pixels_drawn(); }
   /// Sets the rate that the status line shows; it shows none for 0.
   void set_pictures_per_second(double rate) { pictures_per_second_ = rate; }
+  /// Returns the texts of the last frame that did not fit.
+  const std::vector<std::string>& cut_texts() const { return cut_texts_; }
   /// Returns the panels' rectangles, by name.
   const std::map<std::string, Rect>& places() const { return places_; }
 
@@ -164,6 +171,9 @@ private:
   void take_path(Trainer& trainer);
   Rect toast_place() const;
   void draw_toast(const Trainer& trainer);
+  void show_on_desktop(const std::filesystem::path& path);
+  void note_unopened();
+  void leave_steps(Trainer& trainer);
   void draw_time_runs_on(const Session& session);
   Overlay top_page() const { return pages_.empty() ? Overlay::none : pages_.back(); }
   void show_page(Overlay page);
@@ -198,9 +208,12 @@ private:
   LearnersPanel learners_panel_;
   CheckPanel check_panel_;
   Toast toast_;
+  std::future<bool> opening_;  ///< of opened_, by the desktop
+  std::filesystem::path opened_;
   /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.
   std::vector<Overlay> pages_;
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
+  bool asks_to_quit_ = false, quits_ = false;
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
   /// Returns where a view is; empty if it is hidden.
@@ -213,6 +226,7 @@ private:
   std::map<View, Rect> views_;
   std::optional<View> large_;
   std::map<std::string, Rect> places_;
+  std::vector<std::string> cut_texts_;
 };
 
 }  // namespace insonate::ui

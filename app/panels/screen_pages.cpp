@@ -168,7 +168,7 @@ void Screen::confirm(Trainer& trainer) {
       return trainer.begin_chosen();
     case Overlay::leave:
       pages_.clear();
-      return trainer.leave();
+      return leave_steps(trainer);
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
@@ -256,10 +256,23 @@ void Screen::leave(Trainer& trainer) {
     return;
   }
   if (trainer.loses_by_leaving() || trainer.loses_sweep()) {
+    asks_to_quit_ = false;
     show_page(Overlay::leave);
     return;
   }
   trainer.leave();
+}
+
+void Screen::quit(Trainer& trainer) {
+  if (trainer.session() && trainer.session()->strict() && !trainer.session()->result())
+    return show_note("This exam counts: go on to its end, then the window can be closed");
+  asks_to_quit_ = trainer.loses_by_leaving() || trainer.loses_sweep();
+  asks_to_quit_ ? show_page(Overlay::leave) : void(quits_ = true);
+}
+
+/// Goes on as the question about unfinished steps was meant.
+void Screen::leave_steps(Trainer& trainer) {
+  asks_to_quit_ ? void(quits_ = true) : trainer.leave();
 }
 
 void Screen::close_page() {
@@ -338,8 +351,8 @@ void Screen::draw_overlay(Trainer& trainer) {
     case Overlay::leave:
       if (const std::optional<bool> leaves =
               draw_leave(theme_, screen_, trainer.loses_by_leaving(), trainer.loses_sweep(), places_)) {
-        close_page();
-        if (*leaves) trainer.leave();
+        pages_.pop_back();
+        if (*leaves) leave_steps(trainer);
       }
       break;
     case Overlay::volume:
@@ -398,7 +411,7 @@ void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
       trainer.attempt([&] { session.practise(); });
       break;
     case ScoreAnswer::open_report:
-      open_on_desktop(trainer.result_files()->report);
+      show_on_desktop(trainer.result_files()->report);
       break;
     case ScoreAnswer::leave:
       trainer.show_start_page();

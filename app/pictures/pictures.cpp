@@ -161,7 +161,9 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   }
   if (times_) times_->end(FramePart::slices);
 
-  if (!camera_placed_) camera = view::OrbitCamera::facing(grid_, *pose);
+  if (!camera_placed_)
+    camera = view::OrbitCamera::facing(
+        grid_, *pose, shows_volume ? double(sizes.volume_width) / std::max(sizes.volume_height, 1) : 1);
   camera_placed_ = true;
   view::VolumeStyle body;
   if (anatomy) {

@@ -329,7 +329,7 @@ void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
   // The command line's, and one on the network, are not found on a bus.
   const auto same = [&](const OfferedTracker& offered) { return offered.uri == tracker(); };
   if (std::none_of(trackers_.begin(), trackers_.end(), same))
-    trackers_.push_back({tracker(), tracker(), FoundTracker::State::ready, "", has_sensor(tracker())});
+    trackers_.push_back({tracker(), tracker(), FoundTracker::State::ready, "", has_sensor(tracker()), false});
 }
 
 void StartPage::choose_tracker(const std::string& uri) {
@@ -341,7 +341,7 @@ void StartPage::choose_tracker(const std::string& uri) {
   std::vector<OfferedTracker> shown = std::move(trackers_);
   const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
   if (std::none_of(shown.begin(), shown.end(), same))
-    shown.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri)});
+    shown.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri), false});
   trackers_ = std::move(shown);
 }
 

@@ -64,6 +64,7 @@ struct OfferedTracker {
   FoundTracker::State state = FoundTracker::State::ready;
   std::string why;  ///< why it cannot be used, or what a learner should know about it
   bool has_sensor = false;
+  bool checked = true;  ///< false for one that no search finds, such as one on the network: its state is not known
 
   bool usable() const { return state == FoundTracker::State::ready; }
 };

@@ -88,10 +88,11 @@ Fit least_median(std::span<const Pose> poses, double& least_mm) {
 
 Refusal turned_too_little(double deg) {
   char text[160];
-  std::snprintf(text, sizeof text,
-                "The probe was turned by %.0f degrees only; tilt it by 30 degrees to all sides and turn it about its "
-                "length as well.",
-                deg);
+  std::snprintf(
+      text, sizeof text,
+      "The probe was turned by %.0f %% of what is needed; tilt it by %d degrees to all sides and turn it about "
+      "its length as well.",
+      std::floor(100 * deg / kLeastPivotSpreadDeg), kPivotTiltDeg);
   return {text};
 }
 

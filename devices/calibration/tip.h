@@ -30,6 +30,8 @@ struct TipFit {
 /// Below this, noise grows more than sixfold on its way to the tip (tip_sd_mm). Tilting by 14 degrees to all sides
 /// gives 10.
 inline constexpr double kLeastPivotSpreadDeg = 10;
+/// What a person is asked for. It is more than enough for the least spread, which is a mean over the directions.
+inline constexpr int kPivotTiltDeg = 30;
 inline constexpr std::size_t kLeastPivotPoses = 50;
 /// Static noise of magnetic trackers is 0.08 to 0.3 mm (DEVICES): with ten times that, the tip was not in a dimple.
 inline constexpr double kMostPivotResidualMm = 3;

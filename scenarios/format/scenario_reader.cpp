@@ -131,6 +131,13 @@ double read_cost(const TomlTable& table, Scenario::Difficulty difficulty) {
   return table.number("cost", {0, 1000});
 }
 
+/// Marks the keys that some kind of step asks for, and reports nothing. Any other key is wrong, whatever the kind is.
+void ask_as_every_kind(const TomlTable& table, const Step& step) {
+  const std::size_t before = table.mistake_count();
+  for (const StepKind& kind : step_kinds()) kind.read(table, step);
+  table.forget_mistakes_after(before);
+}
+
 Step read_step(const TomlTable& table, const Scenario& exam) {
   Step step;
   step.kind = table.text("kind");
@@ -164,7 +171,7 @@ Step read_step(const TomlTable& table, const Scenario& exam) {
   if (!kind) {
     step.sound = false;
     step.criteria = read_criteria(table, false);
-    table.allow_unknown_keys();
+    ask_as_every_kind(table, step);
     return step;
   }
   const std::size_t mistakes_before = table.mistake_count();

@@ -471,6 +471,11 @@ std::size_t TomlTable::mistake_count() const {
   return node_->document.mistakes.size();
 }
 
+void TomlTable::forget_mistakes_after(std::size_t kept) const {
+  std::vector<Mistake>& mistakes = node_->document.mistakes;
+  if (kept < mistakes.size()) mistakes.erase(mistakes.begin() + std::ptrdiff_t(kept), mistakes.end());
+}
+
 void TomlTable::refuse_unknown_keys() const {
   for (const auto& [key, value] : node_->table) {
     if (!node_->asked.contains(key.str()) && !node_->allows_unknown)

@@ -147,6 +147,8 @@ public:
   [[noreturn]] void fail(std::string_view key, const std::string& problem, const std::string& remedy) const;
   /// Returns the number of mistakes that are collected in the whole document.
   std::size_t mistake_count() const;
+  /// Drops the collected mistakes of the whole document but the first `kept`.
+  void forget_mistakes_after(std::size_t kept) const;
 
   /// Reports every key that was never asked for, here and in the tables that were read from this one. Call it when the
   /// table has been read; its suggestions are the keys that were asked for.

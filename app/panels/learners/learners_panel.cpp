@@ -150,9 +150,9 @@ LearnersAnswer LearnersPanel::draw(const Theme& theme, const Rect& screen, Learn
   draw_tooltip(theme, foot, page.problem());
 
   const float gap = theme.px(16);
-  const Rect left = rest.take_left(theme.px(300));
+  const Rect left = rest.take_left(theme.text_px(300));
   rest.take_left(gap);
-  Rect right = rest.take_right(theme.px(372));
+  Rect right = rest.take_right(theme.text_px(372));
   rest.take_right(gap);
   draw_learners(theme, left, page);
   const Rect scores = rest.take_top(std::round(rest.h * 0.45f));
@@ -170,7 +170,7 @@ LearnersAnswer LearnersPanel::draw(const Theme& theme, const Rect& screen, Learn
 LearnersAnswer LearnersPanel::draw_head(const Theme& theme, Rect head, const LearnersPage& page) {
   LearnersAnswer answer = LearnersAnswer::none;
   const auto next = [&](const char* id, float width, const char* text, LearnersAnswer means) {
-    const Rect place = (*places_)[id] = head.take_right(theme.px(width)).inset(0, theme.px(6));
+    const Rect place = (*places_)[id] = head.take_right(theme.text_px(width)).inset(0, theme.px(6));
     head.take_right(theme.px(8));
     if (button(theme, id, place, text)) answer = means;
   };

@@ -71,6 +71,7 @@ const std::vector<Key> kFiles{
 const std::vector<Key> kSweep{{"T, U", "begin and end a sweep; see the volume of its pictures"}};
 const std::vector<Key> kWindow{
     {"F1, F3, F11", "this help; settings; full screen"},
+    {"Ctrl Q", "end the program"},
 };
 
 std::vector<Key> keys_of(std::initializer_list<std::vector<Key>> parts) {
@@ -207,26 +208,72 @@ Help help_of(HelpTopic topic) {
   return {};
 }
 
+/// Keys and what they do, in columns. A text that is too long for its column is wrapped.
+class KeyTable {
+public:
+  KeyTable(const Theme& theme, const std::vector<Key>& keys, float width, int columns)
+      : theme_(theme), keys_(keys), width_(width), column_((width - gap() * float(columns - 1)) / float(columns)) {
+    for (const Key& key : keys) name_ = std::max(name_, text_width(theme.strong, key.keys) + theme.px(16));
+    float all = 0;
+    for (const Key& key : keys) all += row_height(key);
+    // Each column but the last ends with the row that makes it as high as its share.
+    float height = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      height += row_height(keys[i]);
+      height_ = std::max(height_, height);
+      if (int(ends_.size()) + 1 == columns || height < all / float(columns)) continue;
+      ends_.push_back(i + 1);
+      height = 0;
+    }
+  }
+
+  float width() const { return width_; }
+  float height() const { return height_; }
+
+  void draw(const Rect& where) const {
+    Rect rest{where.x, where.y, column_, where.h};
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (std::find(ends_.begin(), ends_.end(), i) != ends_.end())
+        rest = {rest.x + column_ + gap(), where.y, column_, where.h};
+      Rect row = rest.take_top(row_height(keys_[i]));
+      draw_paragraph(row.take_left(name_), theme_.strong, colour::kText, keys_[i].keys);
+      draw_paragraph(row, theme_.text, colour::kMuted, keys_[i].meaning);
+    }
+  }
+
+private:
+  float gap() const { return theme_.px(28); }
+  float row_height(const Key& key) const {
+    const float text = paragraph_height(theme_.text, key.meaning, column_ - name_);
+    return text + theme_.text->FontSize * 0.25f;
+  }
+
+  const Theme& theme_;
+  const std::vector<Key>& keys_;
+  float width_, column_, name_ = 0, height_ = 0;
+  std::vector<std::size_t> ends_;
+};
+
 }  // namespace
 
 HelpAnswer draw_help(const Theme& theme, const Rect& screen, HelpTopic topic, std::map<std::string, Rect>& places) {
   const Help help = help_of(topic);
-  const float width = theme.px(760), text = width - 2 * theme.px(28), keys = theme.px(230);
-  const float purpose = paragraph_height(theme.text, help.purpose, text);
-  const float around = theme.px(28 + 10 + 14 + 14 + 38 + 2 * 24) + purpose;
-  // Where many keys meet a low screen, their rows move together rather than off it.
-  const float row =
-      std::min(theme.px(25), (screen.h - theme.px(16) - around) / float(std::max<std::size_t>(help.keys.size(), 1)));
-  Rect sheet = begin_overlay(theme, screen, {width, around + row * float(help.keys.size())});
+  const float widest = screen.w - theme.px(16), margins = 2 * theme.px(28);
+  const auto around = [&](float width) {
+    return theme.px(28 + 10 + 14 + 14 + 38 + 2 * 24) + paragraph_height(theme.text, help.purpose, width - margins);
+  };
+  // Where many keys meet a low screen or large text, they stand in two columns.
+  const KeyTable one(theme, help.keys, std::min(theme.px(760), widest) - margins, 1);
+  const bool fits = around(one.width() + margins) + one.height() <= screen.h - theme.px(16);
+  const KeyTable table = fits ? one : KeyTable(theme, help.keys, widest - margins, 2);
+  const float width = table.width() + margins;
+  const float purpose = paragraph_height(theme.text, help.purpose, table.width());
+  Rect sheet = begin_overlay(theme, screen, {width, around(width) + table.height()});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, help.title);
   sheet.take_top(theme.px(10));
   draw_paragraph(sheet.take_top(purpose), theme.text, colour::kText, help.purpose);
   sheet.take_top(theme.px(14));
-  for (const Key& key : help.keys) {
-    Rect line = sheet.take_top(row);
-    draw_text(line.take_left(keys), theme.strong, colour::kText, key.keys);
-    draw_text(line, theme.text, colour::kMuted, key.meaning);
-  }
+  table.draw(sheet.take_top(table.height()));
   Rect buttons = sheet.take_bottom(theme.px(38));
   HelpAnswer answer = HelpAnswer::none;
   places["close_help"] = buttons.take_right(theme.px(150));

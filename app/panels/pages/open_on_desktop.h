@@ -1,11 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 
 namespace insonate::ui {
 
-/// Opens a file or folder with the desktop's default program, without waiting for it. Writes a line to stderr if
-/// the desktop cannot be asked.
-void open_on_desktop(const std::filesystem::path& file);
+/// Opens a file or folder with the desktop's default program, without waiting for it. Within some 2 s, the result says
+/// whether there is such a program.
+std::future<bool> open_on_desktop(const std::filesystem::path& file);
 
 }  // namespace insonate::ui

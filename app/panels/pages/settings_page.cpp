@@ -11,7 +11,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kLabel = 230, kRow = 42;
+constexpr float kWidth = 860, kLabel = 250, kRow = 42, kReset = 80, kChoose = 90, kGap = 8;
 constexpr const char *kHere = "18944", *kNetwork = "0.0.0.0:18944";
 
 /// Draws the page's rows from the top down.
@@ -35,19 +35,28 @@ public:
   /// Draws a path with buttons to change it.
   PathAnswer path(const std::string& id, const char* label, const std::filesystem::path& path,
                   const std::string& otherwise) {
-    Rect line = next(label);
-    PathAnswer answer = PathAnswer::none;
-    const auto press = [&](const std::string& what, const char* text, float width, bool enabled) {
-      const Rect place = places_["settings_" + id + "_" + what] = line.take_right(theme_.px(width));
-      line.take_right(theme_.px(8));
-      return button(theme_, ("settings_" + id + "_" + what).c_str(), place, text, ButtonKind::normal, enabled);
-    };
-    if (press("reset", "Reset", 80, !path.empty())) answer = PathAnswer::reset;
-    if (press("choose", "Choose", 90, true)) answer = PathAnswer::choose;
     const std::string text = path.empty() ? otherwise : path.string();
-    draw_text(line, theme_.text, path.empty() ? colour::kMuted : colour::kText, text);
-    draw_tooltip(theme_, line, text);
+    Rect line = next(label, path_height(theme_, text));
+    PathAnswer answer = PathAnswer::none;
+    const auto press = [&](const std::string& what, const char* words, float width, bool enabled) {
+      Rect place = line.take_right(theme_.px(width));
+      line.take_right(theme_.px(kGap));
+      place =
+          places_["settings_" + id + "_" + what] = {place.x, place.centre().y - theme_.px(17), place.w, theme_.px(34)};
+      return button(theme_, ("settings_" + id + "_" + what).c_str(), place, words, ButtonKind::normal, enabled);
+    };
+    if (press("reset", "Reset", kReset, !path.empty())) answer = PathAnswer::reset;
+    if (press("choose", "Choose", kChoose, true)) answer = PathAnswer::choose;
+    const float height = paragraph_height(theme_.text, text, line.w);
+    draw_paragraph({line.x, line.centre().y - height / 2, line.w, height}, theme_.text,
+                   path.empty() ? colour::kMuted : colour::kText, text);
     return answer;
+  }
+
+  /// Returns the height of a path's row, in which a long path has several lines.
+  static float path_height(const Theme& theme, const std::string& text) {
+    const float width = theme.px(kWidth - 2 * 28 - kLabel - kReset - kChoose - 2 * kGap);
+    return std::max(theme.px(kRow), paragraph_height(theme.text, text, width) + theme.px(12));
   }
 
   /// Draws a setting that cannot be changed now.
@@ -59,8 +68,9 @@ public:
   }
 
 private:
-  Rect next(const char* label) {
-    Rect line = rest_.take_top(theme_.px(kRow)).inset(0, theme_.px(4));
+  Rect next(const char* label) { return next(label, theme_.px(kRow)); }
+  Rect next(const char* label, float height) {
+    Rect line = rest_.take_top(height).inset(0, theme_.px(4));
     draw_text(line.take_left(theme_.px(kLabel)), theme_.text, colour::kText, label);
     return line;
   }
@@ -85,7 +95,14 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
                              std::map<std::string, Rect>& places) {
   SettingsAnswer answer;
   Preferences wanted = preferences;
-  Rect sheet = begin_overlay(theme, screen, {theme.px(820), theme.px(2 * 24 + 28 + 9 * kRow + 3 * 38 + 60)});
+  std::error_code error;
+  const std::string out_text = std::filesystem::absolute(options.out, error).string();
+  const std::string cases_text = "those in the folder of the start", results_text = own_results_text();
+  float paths = 0;
+  for (const auto& [path, otherwise] :
+       {std::pair{&wanted.out, &out_text}, {&wanted.cases, &cases_text}, {&wanted.results, &results_text}})
+    paths += Rows::path_height(theme, path->empty() ? *otherwise : path->string());
+  Rect sheet = begin_overlay(theme, screen, {theme.px(kWidth), theme.px(2 * 24 + 28 + 6 * kRow + 3 * 38 + 60) + paths});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Settings");
   Rect buttons = sheet.take_bottom(theme.px(38));
   Rows rows(theme, sheet, places);
@@ -129,19 +146,21 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
         break;
     }
   };
-  std::error_code error;
-  path("out", "Reports, pictures, recordings", wanted.out, std::filesystem::absolute(options.out, error).string(),
-       Wanted::output);
-  path("cases", "Patients of your own", wanted.cases, "those in the folder of the start", Wanted::cases);
+  path("out", "Reports, pictures, recordings", wanted.out, out_text, Wanted::output);
+  path("cases", "Patients of your own", wanted.cases, cases_text, Wanted::cases);
   if (!options.results.empty())
     rows.fixed("Results of learners", options.results.string() + ", by the command line");
   else
-    path("results", "Results of learners", wanted.results, own_results_text(), Wanted::results);
+    path("results", "Results of learners", wanted.results, results_text, Wanted::results);
 
   places["settings_close"] = buttons.take_right(theme.px(150));
   answer.close = button(theme, "settings_close", places["settings_close"], "Close  (Esc)", ButtonKind::primary);
-  draw_text(buttons, theme.small_text, kept_in.empty() ? colour::kAmber : colour::kMuted,
-            kept_in.empty() ? "Not kept: the file of settings cannot be used." : "Kept in " + kept_in.string());
+  buttons.take_right(theme.px(kGap));
+  const std::string kept =
+      kept_in.empty() ? "Not kept: the file of settings cannot be used." : "Changes are kept in " + kept_in.string();
+  const float kept_height = paragraph_height(theme.small_text, kept, buttons.w);
+  draw_paragraph({buttons.x, buttons.centre().y - kept_height / 2, buttons.w, kept_height}, theme.small_text,
+                 kept_in.empty() ? colour::kAmber : colour::kMuted, kept);
   end_overlay();
   if (wanted != preferences) answer.wanted = wanted;
   return answer;

@@ -10,10 +10,14 @@
 namespace insonate::ui {
 namespace {
 
-std::string tip_of(const Probe& probe) {
-  return probe.title + " probe, " + formatted("%.1f MHz", probe.frequency_mhz) +
-         formatted(", %.0f mm deep", probe.depth_mm);
+std::string tip_of(const Theme& theme, const Probe& probe) {
+  return probe.title + " probe, " + formatted("%.1f MHz, ", probe.frequency_mhz) +
+         depth_text(theme.look(), probe.depth_mm) + " deep";
 }
+
+/// Widths of the console's parts, and the gaps between them.
+constexpr float kProbes = 112, kButtons = 276, kTimeGain = 150, kMargin = 16, kGap = 28, kKnobGap = 18;
+constexpr int kColumns = 4, kRows = 2;
 
 void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::map<std::string, Rect>& places) {
   draw_text(where.take_top(theme.px(20)), theme.small_text, colour::kMuted, "Probe");
@@ -26,7 +30,7 @@ void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::ma
     const bool chosen = session.machine().probe == probe.name;
     const std::string why_not = chosen ? "" : session.why_not(ActionKind::probe);
     if (button(theme, probe.name.c_str(), place, probe.title.c_str(), chosen ? ButtonKind::chosen : ButtonKind::normal,
-               why_not.empty(), why_not.empty() ? tip_of(probe) : "") &&
+               why_not.empty(), why_not.empty() ? tip_of(theme, probe) : "") &&
         !chosen)
       session.choose_probe(probe.name);
     if (!why_not.empty()) draw_tooltip(theme, place, why_not);
@@ -79,13 +83,13 @@ std::vector<Knob> knobs_of(const Theme& theme, const Machine& machine) {
 }
 
 void draw_knobs(const Theme& theme, const Rect& where, Session& session) {
-  constexpr int kColumns = 4;
-  const float gap = theme.px(18), width = (where.w - (kColumns - 1) * gap) / kColumns;
+  const float gap = theme.px(kKnobGap), width = (where.w - (kColumns - 1) * gap) / kColumns;
+  const float height = where.h / kRows;
   const std::vector<Knob> knobs = knobs_of(theme, session.machine());
   for (std::size_t i = 0; i < knobs.size(); ++i) {
     const Knob& knob = knobs[i];
-    const Rect place{where.x + float(int(i) % kColumns) * (width + gap),
-                     where.y + float(int(i) / kColumns) * theme.px(50), width, theme.px(46)};
+    const Rect place{where.x + float(int(i) % kColumns) * (width + gap), where.y + float(int(i) / kColumns) * height,
+                     width, height - theme.px(4)};
     const std::string why_not = session.why_not(knob.kind);
     double value = knob.value;
     if (slider(theme, knob.id, place, knob.name, knob.text, value, knob.least, knob.most, knob.step, knob.normal,
@@ -93,6 +97,25 @@ void draw_knobs(const Theme& theme, const Rect& where, Session& session) {
       session.set(knob.kind, knob.offset + knob.scale * value);
     if (!why_not.empty()) draw_tooltip(theme, place, why_not);
   }
+}
+
+/// Returns whether names and values of all knobs fit beside each other, whatever the values are.
+bool knobs_fit(const Theme& theme, float panel_width) {
+  Machine widest;
+  widest.probe = probes().front().name;
+  widest.depth_mm = Machine::kMostDepth_mm;
+  widest.gain_db = -Machine::kMostGain_db;
+  widest.steering_angles = Machine::kMostSteeringAngles;
+  widest.edge_enhancement = Machine::kMostEdgeEnhancement - 0.25;
+  widest.frequency_mhz = 12;
+  widest.dynamic_range_db = Machine::kMostDynamicRange_db;
+  widest.persistence = Machine::kMostPersistence;
+  widest.speckle_reduction = 1;
+  const float others = kProbes + kButtons + kTimeGain + 3 * kGap + 2 * kMargin + (kColumns - 1) * kKnobGap;
+  const float width = (panel_width - theme.px(others)) / kColumns;
+  const std::vector<Knob> knobs = knobs_of(theme, widest);
+  return std::all_of(knobs.begin(), knobs.end(),
+                     [&](const Knob& knob) { return fits_one_line(theme, width, knob.name, knob.text); });
 }
 
 void draw_time_gain(const Theme& theme, Rect where, Session& session) {
@@ -115,18 +138,22 @@ void draw_time_gain(const Theme& theme, Rect where, Session& session) {
 
 }  // namespace
 
+float console_height(const Theme& theme, float width) {
+  return kRows * (slider_height(theme, !knobs_fit(theme, width)) + theme.px(4)) + theme.px(20);
+}
+
 ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session& session,
                                   const std::function<void(const std::function<void()>&)>& attempt,
                                   std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
-  Rect rest = panel.inset(theme.px(16), theme.px(10));
-  const float gap = theme.px(28);
-  draw_probe_choice(theme, rest.take_left(theme.px(112)), session, places);
+  Rect rest = panel.inset(theme.px(kMargin), theme.px(10));
+  const float gap = theme.px(kGap);
+  draw_probe_choice(theme, rest.take_left(theme.px(kProbes)), session, places);
   rest.take_left(gap);
 
-  Rect buttons = rest.take_right(theme.px(276));
+  Rect buttons = rest.take_right(theme.px(kButtons));
   rest.take_right(gap);
-  draw_time_gain(theme, rest.take_right(theme.px(150)), session);
+  draw_time_gain(theme, rest.take_right(theme.px(kTimeGain)), session);
   rest.take_right(gap);
   draw_knobs(theme, rest, session);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "sim/core/text.h"
 
@@ -135,7 +137,29 @@ std::string status_of(const Scenario& scenario, const Step& step) {
   return scenario.order == Scenario::Order::free ? "In any order" : "";
 }
 
+constexpr float kHeight = 66, kMargin = 16, kTracker = 264, kTime = 112, kHold = 190, kGap = 12, kTitle = 25,
+                kInstruction = 22;
+
+/// Whether the view is found is what an exam asks.
+bool shows_hold(const Session& session) {
+  return !session.strict() || session.runner()->live().finished;
+}
+
+/// Returns the font and the height of a step's instruction.
+std::pair<ImFont*, float> fit_instruction(const Theme& theme, float width, const std::string& text) {
+  if (text_width(theme.text, text) <= width) return {theme.text, theme.px(kInstruction)};
+  return {theme.small_text, std::max(theme.px(kInstruction), paragraph_height(theme.small_text, text, width))};
+}
+
 }  // namespace
+
+float exam_panel_height(const Theme& theme, float width, const Session* session) {
+  if (!session || !session->runner()) return theme.px(kHeight);
+  const float others = 2 * kMargin + kTracker + kTime + 2 * kGap + (shows_hold(*session) ? kHold + kGap : 0);
+  const Runner& runner = *session->runner();
+  const std::string& text = runner.scenario().steps[runner.live().step].instruction;
+  return theme.px(kHeight - kInstruction) + fit_instruction(theme, width - theme.px(others), text).second;
+}
 
 std::string rejection_advice(const TrackerState& state) {
   const std::string begin = "The tracker's poses are rejected: ";
@@ -164,10 +188,10 @@ std::string clock_text(double seconds) {
 void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views,
                      const std::string& learner, std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
-  Rect rest = panel.inset(theme.px(16), 0);
-  draw_tracker(theme, rest.take_right(theme.px(264)), session);
-  rest.take_right(theme.px(12));
-  const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(25)};
+  Rect rest = panel.inset(theme.px(kMargin), 0);
+  draw_tracker(theme, rest.take_right(theme.px(kTracker)), session);
+  rest.take_right(theme.px(kGap));
+  const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(kTitle)};
   const Runner* runner = session.runner();
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
@@ -180,12 +204,11 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const LiveExam& live = runner->live();
   const Scenario& scenario = runner->scenario();
   const Step& step = scenario.steps[live.step];
-  draw_time(theme, rest.take_right(theme.px(112)), live, step.counts, session.strict());
-  rest.take_right(theme.px(12));
-  // Whether the view is found is what an exam asks.
-  if (!session.strict() || live.finished) {
-    draw_hold(theme, rest.take_right(theme.px(190)), session, step.task->words());
-    rest.take_right(theme.px(12));
+  draw_time(theme, rest.take_right(theme.px(kTime)), live, step.counts, session.strict());
+  rest.take_right(theme.px(kGap));
+  if (shows_hold(session)) {
+    draw_hold(theme, rest.take_right(theme.px(kHold)), session, step.task->words());
+    rest.take_right(theme.px(kGap));
   }
 
   const std::string number = std::to_string(live.step + 1) + " / " + std::to_string(scenario.steps.size());
@@ -208,8 +231,10 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (const std::string status = status_of(scenario, step); !status.empty())
     draw_chip(status, colour::kAccent, title.w);
   draw_text(title, theme.heading, colour::kText, step.title);
-  ImFont* font = text_width(theme.text, step.instruction) <= rest.w ? theme.text : theme.small_text;
-  draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(22)}, font, colour::kMuted, step.instruction);
+  const auto [font, height] = fit_instruction(theme, rest.w, step.instruction);
+  const float text_height = paragraph_height(font, step.instruction, rest.w);
+  draw_paragraph({rest.x, std::round(upper.y + upper.h + (height - text_height) / 2), rest.w, text_height}, font,
+                 colour::kMuted, step.instruction);
 }
 
 }  // namespace insonate::ui

@@ -9,6 +9,9 @@
 
 namespace insonate::ui {
 
+/// Returns the height that the strip at the top needs: more for an instruction that does not fit into one line.
+float exam_panel_height(const Theme& theme, float width, const Session* session);
+
 /// Draws the strip at the top: the current step, its progress, the time left, and the tracker's state.
 /// @param makes_views  true while reference views are being made
 /// @param learner  who is learning; empty for nobody in particular

@@ -138,7 +138,8 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
            wizard.moved() ? ButtonKind::chosen : ButtonKind::normal))
     wizard.set_moved(!wizard.moved());
   draw_text(buttons, theme.small_text, heard ? colour::kMuted : colour::kAmber,
-            heard ? "Kept in " + wizard.file().string() : "Nothing to mark: no pose has come from the tracker yet.");
+            heard ? "Each finished step is kept in " + wizard.file().string()
+                  : "Nothing to mark: no pose has come from the tracker yet.");
 
   draw_steps(theme, page.take_left(theme.px(270)), wizard, places);
   page.take_left(theme.px(18));

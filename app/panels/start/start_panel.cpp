@@ -5,6 +5,7 @@
 
 #include "app/panels/start/start_list.h"
 #include "app/panels/widgets/choice_rows.h"
+#include "app/panels/widgets/scroll_area.h"
 #include "scenarios/words.h"
 
 namespace insonate::ui {
@@ -81,7 +82,7 @@ StartAnswer StartPanel::draw(const Theme& theme, const Rect& screen, StartPage& 
   const float gap = theme.px(16);
   Rect tasks = rest.take_left(theme.px(268));
   rest.take_left(gap);
-  Rect side = rest.take_right(theme.px(336));
+  Rect side = rest.take_right(theme.text_px(336));
   rest.take_right(gap);
   const float between = theme.px(8);
   const std::vector<Task> offered = page.tasks();
@@ -168,9 +169,12 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
     draw_tooltip(theme, row, tracker.why);
     Rect line = row.inset(theme.px(10), 0);
     const Rect light = line.take_left(theme.px(22));
-    ImGui::GetWindowDrawList()->AddCircleFilled({light.x + theme.px(6), light.centre().y}, theme.px(6),
-                                                light_of(tracker.state), 20);
-    const char* words = words_of(tracker.state);
+    const ImVec2 middle{light.x + theme.px(6), light.centre().y};
+    if (tracker.checked)
+      ImGui::GetWindowDrawList()->AddCircleFilled(middle, theme.px(6), light_of(tracker.state), 20);
+    else
+      ImGui::GetWindowDrawList()->AddCircle(middle, theme.px(5), colour::kMuted, 20, theme.px(1.5f));
+    const char* words = tracker.checked ? words_of(tracker.state) : "not checked";
     draw_text(line.take_right(text_width(theme.small_text, words) + 1), theme.small_text,
               current ? colour::kText : colour::kMuted, words, Align::right);
     line.take_right(theme.px(8));
@@ -202,17 +206,22 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
 void StartPanel::draw_attempts(const Theme& theme, Rect panel, StartPage& page) {
   Rect rest = draw_column_panel(theme, panel, "Done before");
   const std::vector<AttemptSummary> attempts = page.attempts();
-  const Rect file = rest.take_bottom(theme.px(20));
-  if (!page.database().empty()) draw_text(file, theme.small_text, colour::kMuted, "In " + page.database().string());
-  draw_tooltip(theme, file, page.database().string());
+  if (!page.database().empty()) {
+    const std::string file = "In " + page.database().string();
+    draw_paragraph(rest.take_bottom(paragraph_height(theme.small_text, file, rest.w)), theme.small_text, colour::kMuted,
+                   file);
+    rest.take_bottom(theme.px(4));
+  }
   if (attempts.empty())
     return void(draw_paragraph(rest, theme.text, colour::kMuted, "Nothing yet. What you practise is kept here."));
   const float height = theme.px(46);
+  const ScrollArea area(theme, "done_before", whole_rows(rest, height), height * float(attempts.size()));
+  Rect content = area.content();
   for (const AttemptSummary& attempt : attempts) {
-    if (rest.h < height) break;
-    const Rect row = rest.take_top(height);
+    const Rect row = content.take_top(height);
+    if (!area.shows(row)) continue;
     const std::string id = "attempt_" + std::to_string(attempt.number);
-    (*places_)[id] = row;
+    if (area.shows_all_of(row)) (*places_)[id] = row;
     ImGui::SetCursorScreenPos(row.min());
     const bool clicked = ImGui::InvisibleButton(id.c_str(), {row.w, row.h});
     if (ImGui::IsItemHovered()) fill(row, colour::kRaised, theme.px(4));

@@ -76,11 +76,11 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
 
   Rect buttons = details.take_bottom(theme.px(34));
   details.take_bottom(theme.px(8));
-  places["browse"] = buttons.take_left(theme.px(190));
+  places["browse"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "browse", places["browse"], "Open a scenario\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::scenario};
   buttons.take_left(theme.px(8));
-  places["check"] = buttons.take_left(theme.px(190));
+  places["check"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "check", places["check"], "Check a scenario\u2026", ButtonKind::normal, true,
              "For authors: shows what is wrong with a scenario file, again whenever it is saved"))
     answer = {StartAnswer::Kind::browse, Wanted::checked};
@@ -111,11 +111,11 @@ StartAnswer draw_patients(const Theme& theme, Rect rest, StartPage& page, std::m
             "a case. Drop it on the window, or open it here.");
   Rect buttons = rest.take_bottom(theme.px(34));
   rest.take_bottom(theme.px(10));
-  places["browse"] = buttons.take_left(theme.px(190));
+  places["browse"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "browse", places["browse"], "Open a CT or case\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::patient};
   buttons.take_left(theme.px(8));
-  places["cases"] = buttons.take_left(theme.px(190));
+  places["cases"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "cases", places["cases"], "List a folder of cases\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::cases};
   std::vector<ListRow> rows;
@@ -133,12 +133,12 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
             "Any moment of a run, with its picture, the probe's path and curves of how it moved. Nothing is scored.");
   Rect buttons = rest.take_bottom(theme.px(34));
   rest.take_bottom(theme.px(10));
-  places["browse"] = buttons.take_left(theme.px(190));
+  places["browse"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "browse", places["browse"], "Open a recorded scan\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::recording};
   buttons.take_left(theme.px(8));
   const bool expert = !page.expert().empty();
-  places["beside"] = buttons.take_left(theme.px(220));
+  places["beside"] = buttons.take_left(theme.text_px(220));
   if (button(theme, "beside", places["beside"], "Beside the skilled scan",
              expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
@@ -194,7 +194,7 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
              Wanted::drawing}}) {
     Rect row = rest.take_top(theme.px(34));
     rest.take_top(theme.px(8));
-    places[each.id] = row.take_left(theme.px(220));
+    places[each.id] = row.take_left(theme.text_px(220));
     row.take_left(theme.px(12));
     if (button(theme, each.id, places[each.id], each.text)) answer = {StartAnswer::Kind::browse, each.wanted};
     if (!each.file.empty()) {
@@ -203,8 +203,10 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
       row.take_right(theme.px(8));
       if (button(theme, reset.c_str(), places[reset], "Reset")) answer = {StartAnswer::Kind::reset, each.wanted};
     }
-    draw_text(row, theme.text, each.file.empty() ? colour::kMuted : colour::kText,
-              each.file.empty() ? each.otherwise : each.file.string());
+    const std::string file = each.file.empty() ? each.otherwise : each.file.string();
+    const float height = paragraph_height(theme.text, file, row.w);
+    draw_paragraph({row.x, row.centre().y - height / 2, row.w, height}, theme.text,
+                   each.file.empty() ? colour::kMuted : colour::kText, file);
   }
   return answer;
 }

@@ -79,8 +79,8 @@ bool Theme::fit(float width, float height, const Look& look) {
   const TextSize text_size_before = std::exchange(look_, look).text_size;
   if (scale == scale_ && look.text_size == text_size_before) return false;
   scale_ = scale;
-  const float text_scale = look.text_size == TextSize::normal ? 1 : look.text_size == TextSize::large ? 1.12f : 1.25f;
-  const auto size = [&](float at_1280) { return px(at_1280) * text_scale; };
+  text_scale_ = look.text_size == TextSize::normal ? 1 : look.text_size == TextSize::large ? 1.12f : 1.25f;
+  const auto size = [&](float at_1280) { return text_px(at_1280); };
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   const std::filesystem::path regular = folder_ / "Inter-Regular.otf", bold = folder_ / "Inter-SemiBold.otf";

@@ -59,6 +59,8 @@ public:
 
   /// Scales a length that is given for a screen of 1280 x 800.
   float px(float at_1280) const { return at_1280 * scale_; }
+  /// Scales a length that has to grow with the size of the text.
+  float text_px(float at_1280) const { return at_1280 * scale_ * text_scale_; }
 
   ImFont* small_text = nullptr;
   ImFont* text = nullptr;
@@ -71,7 +73,7 @@ public:
 private:
   std::filesystem::path folder_;
   Look look_;
-  float scale_ = 0;
+  float scale_ = 0, text_scale_ = 1;
 };
 
 }  // namespace insonate::ui

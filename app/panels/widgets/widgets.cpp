@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace insonate::ui {
 namespace {
@@ -26,6 +27,9 @@ std::string shortened(ImFont* font, std::string_view text, float width) {
   }
   return kEllipsis;
 }
+
+/// Of a slider: the height of a line of text, and the least gap between name and value.
+constexpr float kSliderLine = 20, kSliderGap = 8;
 
 struct Scale {
   double least, most, step, normal;
@@ -52,6 +56,7 @@ void draw_knob(const Theme& theme, const ImVec2& centre, float radius, bool lit)
 }
 
 bool tips_are_hidden = false;
+std::vector<std::string> cut_texts;
 
 /// Draws a text in a box above `of`, or below where there is no room.
 void draw_box(const Theme& theme, const Rect& of, std::string_view text) {
@@ -102,10 +107,15 @@ float text_width(ImFont* font, std::string_view text) {
   return size_of(font, text).x;
 }
 
+std::vector<std::string> take_cut_texts() {
+  return std::exchange(cut_texts, {});
+}
+
 void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align) {
   ImVec2 size = size_of(font, text);
   std::string cut;
   if (size.x > where.w + 0.5f) {
+    cut_texts.emplace_back(text);
     cut = shortened(font, text, where.w);
     text = cut;
     size = size_of(font, text);
@@ -124,7 +134,9 @@ float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_
   const ImVec4 clip(where.x, where.y, where.x + where.w + 1, where.y + where.h);
   ImGui::GetWindowDrawList()->AddText(font, font->FontSize, where.min(), colour, text.data(), text.data() + text.size(),
                                       where.w, &clip);
-  return paragraph_height(font, text, where.w);
+  const float height = paragraph_height(font, text, where.w);
+  if (height > where.h + 1) cut_texts.emplace_back(text);
+  return height;
 }
 
 void fill(const Rect& where, ImU32 colour, float rounding) {
@@ -172,6 +184,14 @@ bool button(const Theme& theme, const char* id, const Rect& where, std::string_v
   return clicked;
 }
 
+bool fits_one_line(const Theme& theme, float width, std::string_view name, std::string_view value_text) {
+  return text_width(theme.small_text, name) + theme.px(kSliderGap) + text_width(theme.strong, value_text) <= width;
+}
+
+float slider_height(const Theme& theme, bool value_below) {
+  return theme.px(kSliderLine * (value_below ? 2 : 1) + 26);
+}
+
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
             double& value, double least, double most, double step, double normal, bool enabled, std::string_view tip) {
   constexpr float kRadius = 7;
@@ -181,13 +201,15 @@ bool slider(const Theme& theme, const char* id, const Rect& where, std::string_v
   const bool lit = enabled && handle(id, where, {least, most, step, normal}, at_mouse, value);
   if (enabled && !ImGui::IsItemActive()) draw_tip(theme, where, tip);
 
+  const bool below = where.h >= slider_height(theme, true) - 1;
   Rect line = where;
-  line.h = theme.px(20);
-  const float value_width = text_width(theme.strong, value_text);
-  draw_text({line.x, line.y, line.w - value_width - theme.px(8), line.h}, theme.small_text, colour::kMuted, name);
+  line.h = theme.px(kSliderLine);
+  const float value_width = below ? 0 : text_width(theme.strong, value_text) + theme.px(kSliderGap);
+  draw_text({line.x, line.y, line.w - value_width, line.h}, theme.small_text, colour::kMuted, name);
+  if (below) line.y += line.h;
   draw_text(line, theme.strong, enabled ? colour::kText : colour::kMuted, value_text, Align::right);
 
-  const float y = std::round(where.y + line.h + theme.px(11));
+  const float y = std::round(line.y + line.h + theme.px(11));
   const float x = left + float((value - least) / (most - least)) * (right - left);
   const float half = theme.px(2);
   fill({where.x, y - half, where.w, 2 * half}, colour::kRaised, half);

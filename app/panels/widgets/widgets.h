@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/panels/widgets/theme.h"
 
@@ -32,6 +33,9 @@ float text_width(ImFont* font, std::string_view text);
 /// Draws one line of text, centred in the rectangle's height. Text that does not fit ends in an ellipsis.
 void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view text, Align align = Align::left);
 
+/// Returns the texts that were drawn since the last call and did not fit, so that tests find what cannot be read.
+std::vector<std::string> take_cut_texts();
+
 /// Returns the height, pixels, of text that is wrapped to `width` pixels.
 float paragraph_height(ImFont* font, std::string_view text, float width);
 
@@ -51,13 +55,19 @@ enum class ButtonKind { normal, chosen, primary, warning, recording };
 bool button(const Theme& theme, const char* id, const Rect& where, std::string_view text,
             ButtonKind kind = ButtonKind::normal, bool enabled = true, std::string_view tip = {});
 
-/// Draws a slider with its name on the left and its value on the right above the track. A double click sets `normal`.
+/// Draws a slider with its name on the left and its value on the right above the track. The value stands below the name
+/// if the rectangle is as high as slider_height() for that. A double click sets `normal`.
 /// Returns true if the value changed; it is rounded to whole `step`s. A disabled slider shows its value and does not
 /// change it.
 /// @param tip  as for button()
 bool slider(const Theme& theme, const char* id, const Rect& where, std::string_view name, std::string_view value_text,
             double& value, double least, double most, double step, double normal, bool enabled = true,
             std::string_view tip = {});
+
+/// Returns whether name and value of a slider of that width fit into one line.
+bool fits_one_line(const Theme& theme, float width, std::string_view name, std::string_view value_text);
+/// Returns the height that a slider needs, with the value below the name or beside it.
+float slider_height(const Theme& theme, bool value_below);
 
 /// Draws a short upright slider for values from -limit to limit, such as one of the time gain compensation.
 bool upright_slider(const Theme& theme, const char* id, const Rect& where, double& value, double limit,

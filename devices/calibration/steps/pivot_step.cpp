@@ -72,14 +72,16 @@ void PivotStep::take(const SensorSample& sample) {
 void PivotStep::ask(SetupView& view) const {
   view.reading = reading_;
   view.task = reading_
-                  ? "Keep the tip in the dimple. Tilt the probe by 30 degrees to all sides, and turn it about its "
-                    "length."
+                  ? formatted(
+                        "Keep the tip in the dimple. Tilt the probe by %d degrees to all sides, and turn it about "
+                        "its length.",
+                        kPivotTiltDeg)
                   : "Put the probe's pointed tip into a dimple that stands fast, away from metal. Mark, then pivot "
                     "for ten seconds.";
   if (!reading_) return;
   view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
-  view.feedback = formatted("%.0f s, %zu poses, turned by %.0f of %.0f degrees", lasted_s_, poses_.size(), spread_deg_,
-                            1.3 * kLeastPivotSpreadDeg);
+  view.feedback = formatted("%.0f s, %zu poses, turned by %.0f %% of what is needed", lasted_s_, poses_.size(),
+                            std::min(100.0, std::floor(100 * spread_deg_ / (1.3 * kLeastPivotSpreadDeg))));
   if (residual_mm_) view.feedback += formatted(", residual %.2f mm", *residual_mm_);
 }
 

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace insonate::view {
 namespace {
 
 constexpr double kSteepest_deg = 89;
-constexpr double kPictureMiddle_mm = 70;  // depth of the middle of abdominal pictures
+constexpr double kHandle_mm = 150, kPictureDepth_mm = 180;  // how far the probe and its picture reach from the face
+constexpr double kRoundness = 0.75;                         // of a body in its box, as the corners are free
+constexpr double kFilled = 0.86;                            // of a picture; the rest has buttons
 constexpr double kNearest_mm = 50, kFarthest_mm = 5000;
 
 }  // namespace
@@ -20,14 +23,37 @@ OrbitCamera OrbitCamera::framing(const Grid& volume) {
   camera.centre = volume.centre();
   camera.yaw_deg = 20;
   camera.pitch_deg = -12;
-  // The sphere around the box, minus a quarter: a body is rounder than its box.
-  const double radius = 0.75 * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
+  // The sphere around the box, minus a quarter.
+  const double radius = kRoundness * glm::length(glm::dvec3(volume.size) * volume.spacing) / 2;
   camera.distance_mm =
       std::clamp(radius / std::sin(glm::radians(camera.field_of_view_deg / 2)), kNearest_mm, kFarthest_mm);
   return camera;
 }
 
-OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_probe) {
+namespace {
+
+/// Moves the camera along its axes and to the distance at which the points fill its picture.
+void fit(OrbitCamera& camera, const std::vector<glm::dvec3>& points, double aspect) {
+  const double up = kFilled * std::tan(glm::radians(camera.field_of_view_deg / 2)), aside = up * aspect;
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    const Pose eye = camera.patient_from_camera();
+    glm::dvec2 least(1e9), most(-1e9);
+    for (const glm::dvec3& point : points) {
+      const glm::dvec3 seen = eye.inverse().point(point);
+      const glm::dvec2 slope = glm::dvec2(seen) / std::max(seen.z, kNearest_mm);
+      least = glm::min(least, slope);
+      most = glm::max(most, slope);
+    }
+    const glm::dvec2 middle = (least + most) / 2.0, half = (most - least) / 2.0;
+    camera.centre += eye.direction(glm::dvec3(middle * camera.distance_mm, 0));
+    camera.zoom(1 / std::max(half.x / aside, half.y / up));
+  }
+}
+
+}  // namespace
+
+OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_probe, double aspect) {
   // The direction to a teacher at the bed: in front of the patient, nearer to the feet.
   const glm::dvec3 teacher = glm::normalize(glm::dvec3(0.15, -1, -0.45));
   const glm::dvec3 normal =
@@ -37,10 +63,17 @@ OrbitCamera OrbitCamera::facing(const Grid& volume, const Pose& patient_from_pro
   glm::dvec3 to_camera = normal;
   if (glm::length(aside) > 1e-6) to_camera = std::cos(tilt) * normal + std::sin(tilt) * glm::normalize(aside);
   OrbitCamera camera = framing(volume);
-  camera.centre = (camera.centre + patient_from_probe.point({0, kPictureMiddle_mm, 0})) / 2.0;
   camera.yaw_deg = glm::degrees(std::atan2(to_camera.x, -to_camera.y));
   camera.pitch_deg =
       std::clamp(glm::degrees(std::asin(std::clamp(to_camera.z, -1.0, 1.0))), -kSteepest_deg, kSteepest_deg);
+  const glm::dvec3 half = kRoundness * glm::dvec3(volume.size) * volume.spacing / 2.0;
+  std::vector<glm::dvec3> points{patient_from_probe.point({0, -kHandle_mm, 0}),
+                                 patient_from_probe.point({0, kPictureDepth_mm, 0})};
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0})
+        points.push_back(volume.centre() + volume.direction * (half * glm::dvec3(x, y, z)));
+  fit(camera, points, aspect);
   return camera;
 }
 

@@ -23,9 +23,8 @@ struct OrbitCamera {
   static OrbitCamera framing(const Grid& volume);
 
   /// Returns a camera with a good view of the probe's plane: at most 35 degrees off its normal, on the side nearer to
-  /// the patient's front and feet. Its centre is half way between the volume's centre and the middle of a usual
-  /// picture.
-  static OrbitCamera facing(const Grid& volume, const Pose& patient_from_probe);
+  /// the patient's front and feet. Body, probe and a picture of usual depth fill a picture of that width per height.
+  static OrbitCamera facing(const Grid& volume, const Pose& patient_from_probe, double aspect = 1);
 
   /// Returns a camera that sees the whole volume from one side, with the head up. From the feet the patient's front is
   /// up, as in an axial CT slice; from the head it is down.

@@ -122,6 +122,8 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   page.task = Task::setup;
   CHECK(page.why_not().find("no sensor") != std::string::npos);
   page.choose_tracker("igtl://localhost/Probe");
+  CHECK(page.trackers().front().checked);
+  CHECK_FALSE(page.trackers().back().checked);  // nobody has asked the network
   const Beginning setup = chosen(Task::setup);
   CHECK(setup.options.mode == Mode::setup);
   CHECK(setup.options.tracker == "igtl://localhost/Probe");

@@ -94,7 +94,8 @@ TEST_CASE("pivoting that does not determine the tip is refused, and says why") {
   CHECK_THAT(refusal({}), Contains("Only 0 poses"));
   CHECK_THAT(refusal(pivoting(dice, start, kTip, kPivot, 35, 60, 49, 0.1)), Contains("Only 49 poses"));
   // Not moved; tilted by too little; only rolled about the length; only tilted about one axis.
-  CHECK_THAT(refusal(std::vector<Pose>(300, dice.pose(100))), Contains("turned by 0 degrees"));
+  CHECK_THAT(refusal(std::vector<Pose>(300, dice.pose(100))),
+             Contains("turned by 0 % of what is needed; tilt it by 30 degrees"));
   CHECK_THAT(refusal(pivoting(dice, start, kTip, kPivot, 8, 4, 300, 0.1)), Contains("turned by"));
   CHECK_THAT(refusal(pivoting(dice, start, kTip, kPivot, 0, 180, 300, 0.1)), Contains("turned by"));
   std::vector<Pose> hinged;

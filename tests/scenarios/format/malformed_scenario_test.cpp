@@ -210,6 +210,19 @@ TEST_CASE("what is wrong in a step of any kind is said in words") {
       refusal);
 }
 
+TEST_CASE("a step whose kind is wrong has its wrong keys reported too, and no key that some kind takes") {
+  const std::string everything = kEverything, key = "kind = \"";
+  for (std::size_t at = everything.find(key); at != std::string::npos; at = everything.find(key, at + 1)) {
+    std::string text = everything;
+    text.replace(at, text.find('\n', at) - at, "kind = \"no_such\"");
+    CHECK(refusal(text).find("there is no kind of step 'no_such'") != std::string::npos);
+    CHECK(refusal(text).find("is unknown here") == std::string::npos);
+    text.insert(at, "colour = 3\n");
+    CHECK(refusal(text).find("there is no kind of step 'no_such'") != std::string::npos);
+    CHECK(refusal(text).find("the key 'colour' is unknown here") != std::string::npos);
+  }
+}
+
 TEST_CASE("names in steps of any kind are checked against the case") {
   check_rows(
       {

@@ -112,6 +112,25 @@ TEST_CASE("A camera that faces a plane looks across it from the front, whatever 
   }
 }
 
+TEST_CASE("A camera that faces a plane has body, probe and picture in its picture, and fills it, wide or high") {
+  insonate::Grid grid;
+  grid.size = {340, 240, 400};
+  const Pose probe{glm::dmat3(1.0), grid.centre() - glm::dvec3(0, 100, 0)};
+  for (const auto& [width, height] : {std::pair{570, 265}, {400, 400}, {300, 700}}) {
+    const OrbitCamera camera = OrbitCamera::facing(grid, probe, double(width) / height);
+    double reach = 0;
+    for (const glm::dvec3& point : {grid.centre() + glm::dvec3(120, 0, 0), grid.centre() - glm::dvec3(120, 0, 0),
+                                    grid.centre() + glm::dvec3(0, 0, 150), grid.centre() - glm::dvec3(0, 0, 150),
+                                    probe.point({0, -150, 0}), probe.point({0, 180, 0})}) {
+      const glm::dvec2 seen = camera.project(point, width, height) / glm::dvec2(width, height);
+      CAPTURE(width, height, seen.x, seen.y);
+      CHECK((seen.x > 0.02 && seen.x < 0.98 && seen.y > 0.02 && seen.y < 0.98));
+      reach = std::max({reach, std::abs(seen.x - 0.5), std::abs(seen.y - 0.5)});
+    }
+    CHECK(reach > 0.3);
+  }
+}
+
 TEST_CASE("Dragging never turns the camera over and never loses the patient") {
   OrbitCamera camera;
   camera.orbit(350, 400);
