@@ -32,9 +32,8 @@ endif()
 # presets release, dev and asan-ubsan precompile headers, and the others compile every file without.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
-   AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-  # With a precompiled header, GCC 12 reports false overflows within std::string's own functions.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+  # With a precompiled header, GCC 12 and 14 report false overflows within std::string's own functions.
   target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")

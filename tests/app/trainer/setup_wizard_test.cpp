@@ -12,7 +12,7 @@
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

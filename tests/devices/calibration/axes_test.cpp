@@ -99,7 +99,7 @@ TEST_CASE("a single mirrored axis of the position is named, and so is the quater
 }
 
 TEST_CASE("moves that say nothing are refused") {
-  using Catch::Matchers::Contains;
+  using Catch::Contains;
   Dice dice(4);
   AxesMoves moves = made_by_hand(dice, Pose{}, Pose{}, 2);
   moves.up.to = moves.up.from;

@@ -50,8 +50,8 @@ TEST_CASE("points touched to a millimetre turn the face by a degree or two") {
   CHECK(worst > 0.8);
 }
 
-TEST_CASE("points that are no probe's are refused") {
-  using Catch::Matchers::Contains;
+TEST_CASE("points that are not a probe's are refused") {
+  using Catch::Contains;
   FacePoints points = kDrawn;
   points.marker_end = points.other_end;
   CHECK_THAT(fit_face(points).refusal(), Contains("ends of the face lie in one place"));
@@ -77,5 +77,5 @@ TEST_CASE("a point is read while it rests, and refused while it moves") {
   CHECK(point->wander_mm == Approx(0.52).epsilon(0.2));
   CHECK_FALSE(still_point(std::span(readings).first(9)));
   for (std::size_t i = 0; i < readings.size(); ++i) readings[i].x += 0.2 * double(i);
-  CHECK_THAT(still_point(readings).refusal(), Catch::Matchers::Contains("moved by 3."));
+  CHECK_THAT(still_point(readings).refusal(), Catch::Contains("moved by 3."));
 }

@@ -11,7 +11,7 @@
 #include "tests/devices/calibration/synthetic.h"
 
 using namespace insonate;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -105,7 +105,7 @@ TEST_CASE("a calibration that is not as it was written is refused in a sentence"
   };
   for (const auto& [text, says] : bad) {
     CAPTURE(says);
-    CHECK_THROWS_WITH(parse_calibration(text, "lab.toml"), Contains(says) && Catch::Matchers::StartsWith("lab.toml: "));
+    CHECK_THROWS_WITH(parse_calibration(text, "lab.toml"), Contains(says) && Catch::StartsWith("lab.toml: "));
   }
   // Cut anywhere it is refused or lacks what follows, and never crashes.
   for (std::size_t length = 0; length + 2 < good.size(); length += 7) {

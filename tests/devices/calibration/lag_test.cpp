@@ -92,7 +92,7 @@ TEST_CASE("one signal against another: the lag between them, wherever each begin
 }
 
 TEST_CASE("motions that do not determine the lag are refused") {
-  using Catch::Matchers::Contains;
+  using Catch::Contains;
   Dice dice(3);
   const std::vector<double> times = blows(dice);
   const auto samples = tracked(dice, times, 0.05, 120, 0.1);

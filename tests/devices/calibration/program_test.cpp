@@ -12,7 +12,7 @@
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -104,7 +104,7 @@ TEST_CASE("insonate-devices calibrate makes one step at a time and keeps the oth
   CHECK_THAT(run("face" + to + recorded(folder, "2.igs.mha", face)).output, Contains("the step 'landmarks' is still"));
   const ProgramOutcome last = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
   CHECK(last.code == 0);
-  CHECK_FALSE(Catch::Matchers::Contains("still to be made").match(last.output));
+  CHECK_FALSE(Catch::Contains("still to be made").match(last.output));
   CHECK(why_incomplete(read_calibration(out)).empty());
 
   // The file of one tracker is not another's.

@@ -173,7 +173,7 @@ TEST_CASE("a landmark that was missed is named") {
 }
 
 TEST_CASE("landmarks that do not determine the motion are refused, and say why") {
-  using Catch::Matchers::Contains;
+  using Catch::Contains;
   Dice dice(4);
   const Pose touched_from_ct = dice.pose(300);
   const auto refusal = [&](std::vector<LandmarkPair> pairs) {

@@ -4,7 +4,7 @@
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -213,7 +213,7 @@ TEST_CASE("a button that is held over a dropout marks once, and again when it wa
   feed(PoseStatus::ok, 2);
   feed(PoseStatus::invalid, 2);
   CHECK(step.marks == 1);
-  // A sample that is no pose tells its buttons all the same.
+  // A sample without a pose has its buttons all the same.
   feed(PoseStatus::invalid, 0);
   feed(PoseStatus::ok, 2);
   CHECK(step.marks == 2);

@@ -90,7 +90,7 @@ TEST_CASE("pivoting that does not determine the tip is refused, and says why") {
     REQUIRE_FALSE(fit);
     return fit.refusal();
   };
-  using Catch::Matchers::Contains;
+  using Catch::Contains;
   CHECK_THAT(refusal({}), Contains("Only 0 poses"));
   CHECK_THAT(refusal(pivoting(dice, start, kTip, kPivot, 35, 60, 49, 0.1)), Contains("Only 49 poses"));
   // Not moved; tilted by too little; only rolled about the length; only tilted about one axis.
