@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 namespace insonate {
 
@@ -19,6 +23,19 @@ inline std::string json_problem(const nlohmann::json::exception& error, std::str
   const std::string what = error.what();
   const std::size_t own = what.find("] ");
   return own == std::string::npos ? what : what.substr(own + 2);
+}
+
+/// Reads a value. Throws what the JSON library throws, and std::runtime_error where a whole number is asked for and the
+/// number is not one, or does not fit: the library would convert it, which is undefined.
+template <typename Json, typename T>
+void read_value(const Json& json, T& value) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    const bool fits = json.is_number_unsigned()  ? std::in_range<T>(json.template get<std::uint64_t>())
+                      : json.is_number_integer() ? std::in_range<T>(json.template get<std::int64_t>())
+                                                 : !json.is_number();
+    if (!fits) throw std::runtime_error("a number that is not whole, or out of range: " + json.dump());
+  }
+  json.get_to(value);
 }
 
 }  // namespace insonate

@@ -211,7 +211,7 @@ private:
       Reader reader{json};
       each_field(reader, value);
     } else {
-      json.get_to(value);
+      read_value(json, value);
     }
   }
   template <typename T>

@@ -64,7 +64,7 @@ std::vector<TracePoint> trace_from_json(std::string_view text, const std::string
       const Json& list = json.at(key);
       if (!list.is_array() || list.size() != trace.size()) throw std::runtime_error("lists of different lengths");
       for (std::size_t i = 0; i < trace.size(); ++i)
-        if (!list[i].is_null()) list[i].get_to(field(trace[i]));
+        if (!list[i].is_null()) read_value(list[i], field(trace[i]));
     });
     return trace;
   } catch (const Json::exception& error) {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "scenarios/criterion_score.h"
 #include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
@@ -90,6 +91,9 @@ TEST_CASE("JSON that is not a result is refused") {
   };
   spoiled("\"format\": 2", "\"format\": 3");
   spoiled("\"scoring_version\": " + std::to_string(ExamResult::kScoringVersion), "\"scoring_version\": \"2\"");
+  for (const char* version : {"4.5", "-1e300", "4294967296"})
+    spoiled("\"scoring_version\": " + std::to_string(ExamResult::kScoringVersion),
+            "\"scoring_version\": " + std::string(version));
   spoiled("\"plane_distance_mm\",", "\"plane_distance_km\",");
   spoiled("\"held\"", "\"dropped\"");
   spoiled("\"percent\": ", "\"percent\": \"\", \"x\": ");

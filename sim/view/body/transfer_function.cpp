@@ -27,7 +27,11 @@ TransferPoint TransferFunction::at(double hu) const {
   const TransferPoint& a = *(above - 1);
   if (above == points.end()) return {hu, a.colour, a.opacity};
   const double share = (hu - a.hu) / (above->hu - a.hu);
-  return {hu, glm::mix(a.colour, above->colour, share), glm::mix(a.opacity, above->opacity, share)};
+  // Sums of two weighted values, as in glm::mix(), may be larger than both by rounding.
+  const auto between = [&](double from, double to) { return std::lerp(from, to, share); };
+  const glm::dvec3 colour(between(a.colour.r, above->colour.r), between(a.colour.g, above->colour.g),
+                          between(a.colour.b, above->colour.b));
+  return {hu, colour, between(a.opacity, above->opacity)};
 }
 
 TransferFunction TransferFunction::moved(double shift_hu, double scale) const {

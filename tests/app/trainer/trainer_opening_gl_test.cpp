@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A CT of water, 24 mm wide and high, with a voxel of 1 HU: a CT of one value alone is refused.
+/// A CT of water, 24 mm wide and high, with a voxel of -1 HU: one value alone, or none below 0, is refused.
 std::string water(int voxels_along_x, double spacing_x_mm) {
   constexpr int kOthers = 24;
   return "ObjectType = Image\nNDims = 3\nDimSize = " + std::to_string(voxels_along_x) +
          " 24 24\nElementSpacing = " + std::to_string(spacing_x_mm) +
-         " 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n\1" +
-         std::string(std::size_t(voxels_along_x) * kOthers * kOthers * sizeof(short) - 1, '\0');
+         " 1 1\nElementType = MET_SHORT\nElementDataFile = LOCAL\n\xff\xff" +
+         std::string((std::size_t(voxels_along_x) * kOthers * kOthers - 1) * sizeof(short), '\0');
 }
 
 }  // namespace
@@ -119,12 +119,12 @@ TEST_CASE("an image without air is shown, with a word that it may be no CT") {
   trainer.open_from_options();
   trainer.finish_loading();
   CHECK(trainer.take_notices().empty());
-  open_and_wait(trainer, folder.file("labels.mha", water(24, 1)));
+  open_and_wait(trainer, folder.file("water.mha", water(24, 1)));
   REQUIRE(trainer.session());
-  CHECK(trainer.session()->loaded_case().subject.name == "labels.mha");
+  CHECK(trainer.session()->loaded_case().subject.name == "water.mha");
   const std::vector<Notice> notices = trainer.take_notices();
   REQUIRE(notices.size() == 1);
-  CHECK(notices[0].text.find("labels.mha holds no air") == 0);
+  CHECK(notices[0].text.find("water.mha holds no air") == 0);
 }
 
 TEST_CASE("another log can be opened in the same session's place, another patient too") {

@@ -51,4 +51,6 @@ TEST_CASE("JSON that is not a trace is refused") {
   spoiled("\"valid\":[true,", "\"valid\":[\"yes\",");
   spoiled("\"face_y_mm\"", "\"face_b_mm\"");
   spoiled("\"step\":[0,", "\"step\":{},\"x\":[0,");
+  for (const char* step : {"-5.0", "-5", "0.5", "1e300", "18446744073709551616"})
+    spoiled("\"step\":[0,", "\"step\":[" + std::string(step) + ",");
 }

@@ -46,6 +46,14 @@ TEST_CASE("A transfer function is linear between its points and constant beyond 
   CHECK(TransferFunction().at(40).opacity == 0);
 }
 
+TEST_CASE("Between equal opacities and colours a transfer function has exactly these") {
+  const TransferFunction even{"even", {{0, {0.3, 0.7, 1}, kMostOpacity}, {3017, {0.3, 0.7, 1}, kMostOpacity}}};
+  for (int hu = 0; hu <= 3017; ++hu) {
+    const TransferPoint at = even.at(hu);
+    if (at.opacity != kMostOpacity || at.colour != glm::dvec3(0.3, 0.7, 1)) FAIL("at " << hu << " HU");
+  }
+}
+
 TEST_CASE("Moving a transfer function scales it about its middle and keeps it within the range") {
   const TransferFunction moved = TransferFunction{"", {{0, {}, 0}, {50, {}, 0.5}, {200, {}, 0.1}}}.moved(30, 2);
   CHECK(moved.points[0].hu == -70);
