@@ -429,6 +429,7 @@ Rect Screen::toast_place() const {
 }
 
 void Screen::show_on_desktop(const std::filesystem::path& path) {
+  if (opening_.valid()) return;  // to replace it would wait for it, up to 2 s, and the window would stand still
   opening_ = open_on_desktop(path);
   opened_ = path;
 }

@@ -15,11 +15,12 @@ constexpr double kHalfHilum_mm = 12;  // the lips of a kidney's hilum are up to 
 constexpr double kLeastSinus_ml = 1;
 constexpr int kDensestGasHu = -200;
 
-/// Returns the part of the labels around a structure, with a margin.
+/// A part of a volume.
 struct Part {
   glm::ivec3 low{0}, size{0};
 };
 
+/// Returns the part around a structure, with a margin; nothing if it has no voxels.
 std::optional<Part> part_around(const Volume<std::uint8_t>& labels, std::uint8_t value, const glm::ivec3& margin) {
   const glm::ivec3 size = labels.grid.size;
   glm::ivec3 low = size, high(-1);
