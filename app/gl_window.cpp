@@ -7,10 +7,42 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/panels/canvas.h"
+#include "sim/gl/headless_context.h"
+
 namespace insonate {
 namespace {
 
 constexpr int kLeastWidth = 1024, kLeastHeight = 700;
+
+/// Copies parts of the window's back buffer to the screen, by GLX's extension MESA_copy_sub_buffer. Its functions are
+/// found at run time: the window may have been opened without X11, and X11's headers define words such as Status.
+class PartialSwap {
+public:
+  /// Returns it for the context that is current; none where the extension is missing.
+  static const PartialSwap* find() {
+    static const PartialSwap found;
+    return found.copy_ && found.display_ && found.drawable_ ? &found : nullptr;
+  }
+  /// Copies a box, in pixels from the bottom left.
+  void copy(int x, int y, int width, int height) const { copy_(display_(), drawable_(), x, y, width, height); }
+
+private:
+  using Display = void;
+  using Drawable = unsigned long;
+
+  PartialSwap() {
+    if (!glfwExtensionSupported("GLX_MESA_copy_sub_buffer")) return;
+    display_ = reinterpret_cast<Display* (*)()>(glfwGetProcAddress("glXGetCurrentDisplay"));
+    drawable_ = reinterpret_cast<Drawable (*)()>(glfwGetProcAddress("glXGetCurrentDrawable"));
+    copy_ =
+        reinterpret_cast<void (*)(Display*, Drawable, int, int, int, int)>(glfwGetProcAddress("glXCopySubBufferMESA"));
+  }
+
+  Display* (*display_)() = nullptr;
+  Drawable (*drawable_)() = nullptr;
+  void (*copy_)(Display*, Drawable, int x, int y, int width, int height) = nullptr;
+};
 
 }  // namespace
 
@@ -43,6 +75,20 @@ GlWindow open_gl_window(const std::string& title, int width, int height) {
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   return window;
+}
+
+void present(GLFWwindow* window, const ui::Canvas& canvas, bool whole) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  const PartialSwap* const parts = whole || !gl::is_software_renderer() ? nullptr : PartialSwap::find();
+  if (!parts) {
+    canvas.show();
+    glfwSwapBuffers(window);
+    return;
+  }
+  for (const ui::PixelBox& box : canvas.drawn()) {
+    canvas.show(box);
+    parts->copy(box.x, canvas.height() - box.end_y, box.end_x - box.x, box.end_y - box.y);
+  }
 }
 
 }  // namespace insonate

@@ -6,6 +6,9 @@
 struct GLFWwindow;
 
 namespace insonate {
+namespace ui {
+class Canvas;
+}
 
 /// Holds GLFW while windows exist. Throws std::runtime_error without a display.
 struct GlfwLibrary {
@@ -24,5 +27,9 @@ using GlWindow = std::unique_ptr<GLFWwindow, WindowDeleter>;
 /// Throws std::runtime_error if the display has no such OpenGL.
 /// @param width, height  in the units of GLFW's screen coordinates; on a smaller screen the window fills it
 GlWindow open_gl_window(const std::string& title, int width, int height);
+
+/// Shows a canvas in a window that is current, whole or only where its last draw() has drawn. A software renderer then
+/// copies only that; a graphics card swaps the whole window, at the display's own rate.
+void present(GLFWwindow* window, const ui::Canvas& canvas, bool whole);
 
 }  // namespace insonate

@@ -199,7 +199,8 @@ private:
                version_before = pictures.ultrasound_version();
     const bool changed = draw();
     // The window's own picture may be lost while it is covered.
-    if (changed || std::exchange(events_.exposed, false)) present();
+    const bool exposed = std::exchange(events_.exposed, false);
+    if (changed || exposed) show(exposed);
     ++frames_;
     const bool new_picture = pictures.ultrasound_version() != version_before;
     if (touched || moved || pictures.drawn() != drawn_before || trainer_.loading() || trainer_.setup() ||
@@ -243,10 +244,8 @@ private:
     return screen_.render(trainer_, times_ ? &*times_ : nullptr);
   }
 
-  void present() {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    screen_.canvas().show();
-    glfwSwapBuffers(window_);
+  void show(bool whole) {
+    present(window_, screen_.canvas(), whole);
     ++shown_;
     if (times_) times_->end(FramePart::present);
   }

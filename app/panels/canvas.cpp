@@ -206,7 +206,7 @@ const gl::Program& Canvas::program_of(Kind kind) const {
   return plain_;
 }
 
-void Canvas::draw_batches(const std::vector<PixelBox>& boxes) const {
+void Canvas::draw_batches() const {
   const gl::Buffer corners(corners_.size() * sizeof(Corner), corners_.data());
   glVertexArrayVertexBuffer(corner_layout_.name(), 0, corners.name(), 0, sizeof(Corner));
   glBindVertexArray(corner_layout_.name());
@@ -220,7 +220,7 @@ void Canvas::draw_batches(const std::vector<PixelBox>& boxes) const {
       glUniform4f(kWhite, white.x, white.y, white.z, white.w);
     }
     glBindTextureUnit(0, name_of(batch.texture));
-    for (const PixelBox& box : boxes) {
+    for (const PixelBox& box : drawn_) {
       const PixelBox part = common(box, batch.bounds);
       if (is_empty(part)) continue;
       glScissor(part.x, height_ - part.end_y, part.end_x - part.x, part.end_y - part.y);
@@ -236,9 +236,8 @@ bool Canvas::draw(const ImDrawData& frame, ImU32 background, const TextureVersio
   resize(int(frame.DisplaySize.x * frame.FramebufferScale.x), int(frame.DisplaySize.y * frame.FramebufferScale.y));
   const std::vector<std::uint64_t> before = std::exchange(hashes_, {});
   take(frame, version_of);
-  const std::vector<PixelBox> boxes = changed_boxes(before);
-  pixels_drawn_ = 0;
-  if (boxes.empty()) return false;
+  drawn_ = changed_boxes(before);
+  if (drawn_.empty()) return false;
 
   GLint previous = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &previous);
@@ -246,15 +245,20 @@ bool Canvas::draw(const ImDrawData& frame, ImU32 background, const TextureVersio
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(background);
   glClearColor(colour.x, colour.y, colour.z, 1);
   glEnable(GL_SCISSOR_TEST);
-  for (const PixelBox& box : boxes) {
+  for (const PixelBox& box : drawn_) {
     glScissor(box.x, height_ - box.end_y, box.end_x - box.x, box.end_y - box.y);
     glClear(GL_COLOR_BUFFER_BIT);
-    pixels_drawn_ += long(box.end_x - box.x) * (box.end_y - box.y);
   }
-  if (!corners_.empty()) draw_batches(boxes);
+  if (!corners_.empty()) draw_batches();
   glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, GLuint(previous));
   return true;
+}
+
+long Canvas::pixels_drawn() const {
+  long pixels = 0;
+  for (const PixelBox& box : drawn_) pixels += long(box.end_x - box.x) * (box.end_y - box.y);
+  return pixels;
 }
 
 Image<Rgba8> Canvas::read(const PixelBox& box) const {
@@ -271,10 +275,10 @@ Image<Rgba8> Canvas::read(const PixelBox& box) const {
   return picture;
 }
 
-void Canvas::show() const {
+void Canvas::show(const PixelBox& box) const {
   GLint target = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
-  framebuffer_.copy_to(GLuint(target));
+  framebuffer_.copy_to(GLuint(target), {box.x, height_ - box.end_y}, {box.end_x, height_ - box.y});
 }
 
 }  // namespace insonate::ui

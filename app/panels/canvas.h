@@ -36,15 +36,19 @@ public:
   void make_fonts();
   /// Draws a frame. Returns whether the picture has changed.
   bool draw(const ImDrawData& frame, ImU32 background, const TextureVersion& version_of);
-  /// Copies the picture into the framebuffer that is bound, which must be of the same size.
-  void show() const;
+  /// Copies the picture into the framebuffer that is bound, which must be of the same size; or a part of it.
+  void show() const { show({0, 0, width_, height_}); }
+  void show(const PixelBox& box) const;
 
   /// Returns a part of the picture, which must lie within it.
   Image<Rgba8> read(const PixelBox& box) const;
   Image<Rgba8> read() const { return read({0, 0, width_, height_}); }
 
-  /// Returns how many pixels the last draw() has drawn.
-  long pixels_drawn() const { return pixels_drawn_; }
+  int height() const { return height_; }
+  /// Returns what the last draw() has drawn; the boxes do not overlap.
+  const std::vector<PixelBox>& drawn() const { return drawn_; }
+  /// Returns how many pixels that is.
+  long pixels_drawn() const;
 
 private:
   /// How triangles are drawn. Those that read no texture, or that cover everything below them, are drawn much faster.
@@ -65,7 +69,7 @@ private:
            const std::array<ImDrawVert, 3>& corners);
   std::vector<PixelBox> changed_boxes(const std::vector<std::uint64_t>& before) const;
   const gl::Program& program_of(Kind kind) const;
-  void draw_batches(const std::vector<PixelBox>& boxes) const;
+  void draw_batches() const;
 
   int width_ = 0, height_ = 0, columns_ = 0, rows_ = 0;
   gl::Texture picture_, fonts_;
@@ -75,7 +79,7 @@ private:
   std::vector<std::uint64_t> hashes_;  ///< of the tiles of the picture, row by row; empty if it shows no frame yet
   std::vector<Corner> corners_;
   std::vector<Batch> batches_;
-  long pixels_drawn_ = 0;
+  std::vector<PixelBox> drawn_;
 };
 
 }  // namespace insonate::ui

@@ -224,9 +224,9 @@ void Framebuffer::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
-void Framebuffer::copy_to(GLuint framebuffer) const {
-  glBlitNamedFramebuffer(object_.name(), framebuffer, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                         GL_NEAREST);
+void Framebuffer::copy_to(GLuint framebuffer, glm::ivec2 first, glm::ivec2 end) const {
+  glBlitNamedFramebuffer(object_.name(), framebuffer, first.x, first.y, end.x, end.y, first.x, first.y, end.x, end.y,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 FullScreenTriangle::FullScreenTriangle() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <epoxy/gl.h>
+#include <glm/vec2.hpp>
 
 #include <array>
 #include <cstddef>
@@ -172,8 +173,9 @@ public:
   int width() const { return width_; }
   /// Binds the framebuffer and sets the viewport to all of it.
   void bind() const;
-  /// Copies the texels into a framebuffer of the same size; 0 is the window's.
-  void copy_to(GLuint framebuffer) const;
+  /// Copies the texels from `first` to before `end` to the same places of a framebuffer of the same size; 0 is the
+  /// window's.
+  void copy_to(GLuint framebuffer, glm::ivec2 first, glm::ivec2 end) const;
 
 private:
   Object<FramebufferKind> object_;

@@ -116,11 +116,8 @@ private:
     session_.hold(holds_);
     if (pictures_.draw(session_)) drawn_s_.push_back(now_s);
     while (!drawn_s_.empty() && drawn_s_.front() < now_s - 1) drawn_s_.pop_front();
-    if (draw() || std::exchange(events_.exposed, false)) {
-      glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      canvas_.show();
-      glfwSwapBuffers(window_);
-    }
+    const bool changed = draw(), exposed = std::exchange(events_.exposed, false);
+    if (changed || exposed) present(window_, canvas_, exposed);
     session_.hold(false);
     obey(std::exchange(events_.wish, {}));
     if (!options_.state_file.empty() && now_s - written_s_ > kStateEvery_s) {

@@ -19,6 +19,14 @@ float loss(int k) {
   return arriving > kLeastReverberant ? 1.0 - pow(min(intensity(k + 1) / arriving, 1.0), 1.0 / reflection_exponent) : 0.0;
 }
 
+// Returns the first sample at or behind j, in steps of `counting`, that may lose enough to mirror; `end` or more if none
+// does. A loop of its own: a software renderer executes what follows for every sample that this does not pass over.
+int next_loss(int j, int counting, int end) {
+  float kept = pow(1.0 - kLeastMirror, reflection_exponent) * 1.00001;  // with room for the rounding in loss()
+  while (j < end && intensity(j + 1) >= kept * intensity(j)) j += counting;
+  return j;
+}
+
 int gas;  // the line's first sample in gas
 
 // Returns e of a sample before it.
@@ -58,7 +66,8 @@ void main() {
   gas = samples;
   int counting = max(int(0.25 / reflection_exponent + 1e-3), 1);
   float of_sample = min(float(counting) * reflection_exponent, 1.0), left = kMostMirrored;
-  for (int j = 0; j < end - 1 && left > 0.0; j += counting) {
+  for (int j = next_loss(0, counting, end - 1); j < end - 1 && left > 0.0;
+       j = next_loss(j + counting, counting, end - 1)) {
     float share = min(of_sample * smoothstep(kLeastMirror, kFullMirror, loss(j)), left);
     if (share <= 0.0) continue;
     gas = min(gas, j);

@@ -40,6 +40,17 @@ echo "where nothing changes nothing is computed, and no frame is shown"
 await "the simulator rests where nothing changes" at_rest
 await "the screen is left as it is" shows_nothing
 
+echo "what was shown part by part looks as a window that is shown whole"
+import -window root "$work/parts.png"
+shown=$(value frames_shown)
+window=$(xdotool search --onlyvisible --name '^Insonate' | head -n 1)
+xdotool windowunmap --sync "$window" windowmap --sync "$window"
+await "the window is shown again" is_not frames_shown "$shown"
+await "the screen is left as it is again" shows_nothing
+import -window root "$work/whole.png"
+pixels=$(different "$work/parts.png" "$work/whole.png")
+[ "$pixels" = 0 ] || fail "$pixels pixels were not as they should be"
+
 echo "keys turn the probe and the console's knobs"
 beam=$(value beam_y)
 xdotool keydown d
