@@ -152,7 +152,7 @@ public:
 
   /// Returns the exit code.
   int run() {
-    while (!glfwWindowShouldClose(window_) && !trainer_.is_over() && !screen_.quits()) {
+    while (!trainer_.is_over() && !screen_.quits()) {
       wait();
       const double now_s = steady_now_s();
       step(now_s);
@@ -188,6 +188,10 @@ private:
     const bool touched = std::exchange(events_.any, false);
     if (times_) times_->begin(now_s);
     open_dropped();
+    if (glfwWindowShouldClose(window_)) {
+      glfwSetWindowShouldClose(window_, GLFW_FALSE);
+      screen_.close_window(trainer_);
+    }
     const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_, events_.mouse.waiting_since_s());
     last_s_ = now_s;
 
@@ -226,7 +230,7 @@ private:
 
   void open_dropped() {
     const std::vector<std::filesystem::path> dropped = std::exchange(events_.dropped, {});
-    if (dropped.size() == 1) trainer_.open(dropped.front());
+    if (dropped.size() == 1) screen_.open(dropped.front(), trainer_);
     if (dropped.size() > 1)
       trainer_.problems().push_back(std::to_string(dropped.size()) +
                                     " things were dropped; drop one at a time, a DICOM series as its folder.");

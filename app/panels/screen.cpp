@@ -308,22 +308,30 @@ void Screen::toggle_look(Trainer& trainer) {
   if (may_look(trainer)) toggle(Aside::look, trainer);
 }
 
-void Screen::toggle_effects(Trainer& trainer) {
+bool Screen::takes_exam(const Trainer& trainer) {
   const Session* session = trainer.session();
-  if (session && session->strict() && !session->result())
+  return session && session->strict() && !session->result();
+}
+
+/// Returns whether the person has asked for the same up to kAsked_s ago.
+bool Screen::asked_before(double& last_s) {
+  const double now_s = ImGui::GetTime();
+  return now_s - std::exchange(last_s, now_s) < kAsked_s;
+}
+
+void Screen::toggle_effects(Trainer& trainer) {
+  if (takes_exam(trainer))
     show_note("This exam counts: effects are for practice");
-  else if (session)
+  else if (trainer.session())
     toggle(Aside::effects, trainer);
 }
 
 void Screen::begin_setup(Trainer& trainer) {
-  const Session* session = trainer.session();
-  const double now_s = ImGui::GetTime();
-  if (session && session->strict() && !session->result())
+  if (takes_exam(trainer))
     show_note("This exam counts: go on to its end, then the tracker can be set up");
   else if (trainer.loses_by_leaving())
     show_note("Leave these steps first (Escape): the set-up would end them");
-  else if (trainer.loses_sweep() && now_s - std::exchange(asked_to_set_up_s_, now_s) > kAsked_s)
+  else if (trainer.loses_sweep() && !asked_before(asked_to_set_up_s_))
     show_note("The set-up may lose the sweep: save it (U, then S), or press F2 once more");
   else
     trainer.begin_setup();
@@ -331,10 +339,9 @@ void Screen::begin_setup(Trainer& trainer) {
 
 void Screen::switch_holder(Trainer& trainer) {
   Session& session = *trainer.session();
-  if (session.strict() && !session.result()) return show_note("This exam counts: the probe stays with the tracker");
+  if (takes_exam(trainer)) return show_note("This exam counts: the probe stays with the tracker");
   if (session.only_learner()) return show_note("Mouse and keyboard move the probe already: there is no tracker");
-  const double now_s = ImGui::GetTime();
-  if (trainer.loses_by_leaving() && now_s - std::exchange(asked_to_switch_s_, now_s) > kAsked_s)
+  if (trainer.loses_by_leaving() && !asked_before(asked_to_switch_s_))
     return show_note("Tab ends these steps: press it once more to go on without them");
   trainer.attempt([&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
 }

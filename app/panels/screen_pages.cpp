@@ -82,7 +82,7 @@ void Screen::take_path(Trainer& trainer) {
   }
   if (wanted == Wanted::look) return trainer.take_look(path);
   if (wanted == Wanted::checked) return trainer.check_scenario(path);
-  if (!page || wanted == Wanted::anything) return trainer.open(path);
+  if (!page || wanted == Wanted::anything) return open(path, trainer);
   trainer.attempt([&] {
     if (!use_for_setup(*page, wanted, path)) page->add(path);
   });
@@ -168,7 +168,7 @@ void Screen::confirm(Trainer& trainer) {
       return trainer.begin_chosen();
     case Overlay::leave:
       pages_.clear();
-      return leave_steps(trainer);
+      return leaving_(trainer);
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
@@ -228,8 +228,7 @@ void Screen::step_on(Trainer& trainer) {
 }
 
 void Screen::toggle_volume(const Trainer& trainer) {
-  if (trainer.session() && trainer.session()->strict() && !trainer.session()->result())
-    return show_note("This exam counts: there are no sweeps in it");
+  if (takes_exam(trainer)) return show_note("This exam counts: there are no sweeps in it");
   if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
   toggle(Overlay::volume);
 }
@@ -255,24 +254,35 @@ void Screen::leave(Trainer& trainer) {
       show_note("This exam counts: go on to its end, then it can be left");
     return;
   }
-  if (trainer.loses_by_leaving() || trainer.loses_sweep()) {
-    asks_to_quit_ = false;
-    show_page(Overlay::leave);
-    return;
-  }
-  trainer.leave();
+  ask_to_leave(trainer, [](Trainer& left) { left.leave(); });
+}
+
+void Screen::open(const std::filesystem::path& path, Trainer& trainer) {
+  // What cannot be opened is refused without a question.
+  if (!trainer.attempt([&] { kind_of_material(path); })) return;
+  if (takes_exam(trainer)) return trainer.open(path);
+  ask_to_leave(trainer, [path](Trainer& left) { left.open(path); });
 }
 
 void Screen::quit(Trainer& trainer) {
-  if (trainer.session() && trainer.session()->strict() && !trainer.session()->result())
-    return show_note("This exam counts: go on to its end, then the window can be closed");
-  asks_to_quit_ = trainer.loses_by_leaving() || trainer.loses_sweep();
-  asks_to_quit_ ? show_page(Overlay::leave) : void(quits_ = true);
+  if (takes_exam(trainer)) return show_note("This exam counts: go on to its end, then the window can be closed");
+  ask_to_leave(trainer, [this](Trainer&) { quits_ = true; });
 }
 
-/// Goes on as the question about unfinished steps was meant.
-void Screen::leave_steps(Trainer& trainer) {
-  asks_to_quit_ ? void(quits_ = true) : trainer.leave();
+void Screen::close_window(Trainer& trainer) {
+  if (takes_exam(trainer) && !asked_before(asked_to_close_s_))
+    show_note("This exam counts: close the window once more to end it here and hand it in");
+  else if (takes_exam(trainer) || std::ranges::find(pages_, Overlay::leave) != pages_.end())
+    quits_ = true;
+  else
+    quit(trainer);
+}
+
+/// Goes on as the person has chosen; asks first if something is lost by it.
+void Screen::ask_to_leave(Trainer& trainer, const std::function<void(Trainer&)>& go_on) {
+  if (!trainer.loses_by_leaving() && !trainer.loses_sweep()) return go_on(trainer);
+  leaving_ = go_on;
+  show_page(Overlay::leave);
 }
 
 void Screen::close_page() {
@@ -293,8 +303,7 @@ HelpTopic Screen::help_topic(const Trainer& trainer) const {
   if (trainer.author()) return HelpTopic::author;
   if (shows_sheet(trainer)) return HelpTopic::score;
   if (below == Overlay::volume) return HelpTopic::volume;
-  const Session* session = trainer.session();
-  return session && session->strict() && !session->result() ? HelpTopic::exam : HelpTopic::scan;
+  return takes_exam(trainer) ? HelpTopic::exam : HelpTopic::scan;
 }
 
 void Screen::draw_setup(Trainer& trainer) {
@@ -352,7 +361,7 @@ void Screen::draw_overlay(Trainer& trainer) {
       if (const std::optional<bool> leaves =
               draw_leave(theme_, screen_, trainer.loses_by_leaving(), trainer.loses_sweep(), places_)) {
         pages_.pop_back();
-        if (*leaves) leave_steps(trainer);
+        if (*leaves) leaving_(trainer);
       }
       break;
     case Overlay::volume:

@@ -42,6 +42,8 @@ water="$work/Jürgen's CT 50%.mha"
   head -c $((60 * 60 * 60 * 2 - 2)) /dev/zero
 } >"$water"
 drop_here "$water"
+await "steps that are not finished are asked about" is overlay leave
+xdotool key Return
 await "a CT is the patient" is patient "Jürgen's CT 50%.mha"
 is activity practice || fail "a CT of one's own has no exam"
 : >"$work/picture.jpg"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A sweep in a real window becomes a volume: begun and ended by key and button, shown in three planes, saved.
-#   window_sweep_test.sh PROGRAM ASSETS_FOLDER
+#   window_sweep_test.sh PROGRAM ASSETS_FOLDER DESKTOP_PROGRAM
+desktop=$3
 . "$(dirname "$0")/window_session.sh"
 water "$work/water.mha"
 start_trainer --ct "$work/water.mha"
@@ -95,6 +96,20 @@ await "Escape stays" is overlay ""
 xdotool key F2
 await "F2 asks too" contains toast "lose the sweep"
 is activity practice || fail "the set-up has begun"
+xdotool key ctrl+q
+await "Ctrl Q asks" is overlay leave
+xdotool key Escape
+await "Escape stays" is overlay ""
+pointer_to "$(middle_x ultrasound)" "$(middle_y ultrasound)"
+"$desktop" close || fail "there is no window to close"
+await "the button in the frame asks" is overlay leave
+xdotool key Escape
+await "Escape stays" is overlay ""
+"$desktop" drop "$INSONATE_ASSETS/logs/ruq_poor.igs.mha" || fail "the window did not take the recorded scan"
+await "what is opened asks" is overlay leave
+xdotool key Escape
+await "Escape stays" is overlay ""
+is holder learner || fail "the recorded scan was opened"
 xdotool key u
 await "the volume is still there" is overlay volume
 
@@ -113,4 +128,6 @@ xdotool key u
 await "and closes it" is overlay ""
 xdotool key Escape
 await "a saved volume needs no question" is_not start_task ""
+xdotool key ctrl+q
+wait "$trainer" || fail "the trainer ended with an error"
 echo "passed"
