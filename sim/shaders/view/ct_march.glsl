@@ -11,7 +11,6 @@
 
 // Per whole HU from kFirstTransferHu on, two texels: colour times extinction and extinction, 1/mm, and their integrals.
 layout(binding = 8) uniform samplerBuffer transfer;
-layout(binding = 10) uniform sampler3D smooth_ct;      // HU / 32767, on the voxels of the tissue texture
 layout(binding = 9) uniform usampler3D cell_distance;  // cells to the nearest one where something can be visible
 #if STRUCTURES
 layout(binding = 11) uniform sampler3D structures;  // colour times coverage, coverage; on the voxels of the tissue texture
@@ -21,10 +20,6 @@ const float kFirstTransferHu = -1024.0, kLastTransferEntry = 4095.0;
 
 // Where two values are so close, the rounding of the integrals would show; the function changes little between them.
 const float kShortSpan_hu = 1.0;
-
-// In voxels of smooth_ct, a whole one: then the gradient is as smooth as the linear interpolation between voxels. With
-// 1.5, lines along the voxels' layers show on smooth skin.
-const float kGradientReach = 1.0;
 
 // A surface is lit where the CT changes by more than its noise does, HU per mm.
 const float kUnlit_hu_mm = 4.0, kLit_hu_mm = 20.0;
@@ -107,13 +102,7 @@ void leap(inout March march, float stop) {
 // the smoothed CT, whose slices do not show.
 // @param at  in coordinates of smooth_ct
 vec2 light_at(vec3 at, vec3 view) {
-  vec3 reach = kGradientReach / vec3(textureSize(smooth_ct, 0));
-  // Differences over the corners of a tetrahedron, which take 4 fetches in place of 6.
-  const vec3 kA = vec3(1, -1, -1), kB = vec3(-1, -1, 1), kC = vec3(-1, 1, -1), kD = vec3(1, 1, 1);
-  vec3 change = (kA * textureLod(smooth_ct, at + kA * reach, 0.0).x + kB * textureLod(smooth_ct, at + kB * reach, 0.0).x +
-                 kC * textureLod(smooth_ct, at + kC * reach, 0.0).x + kD * textureLod(smooth_ct, at + kD * reach, 0.0).x) /
-                (4.0 * reach);
-  vec3 gradient = transpose(mat3(tissue_from_patient)) * (change * 32767.0);  // HU per mm
+  vec3 gradient = smooth_gradient(at);
   return mix(kLightWithin, lighting(facing(gradient, view), view),
              smoothstep(kUnlit_hu_mm, kLit_hu_mm, length(gradient)));
 }

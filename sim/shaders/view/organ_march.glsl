@@ -4,13 +4,14 @@
 
 layout(binding = 4) uniform usampler3D block_distance;  // blocks to the nearest one where something changes
 
-// Returns gradients by central differences over one voxel, per patient mm: [0] of the opacity, [1] of the body's share.
-mat2x3 gradients(vec3 at, vec3 step_uv) {
-  vec2 dx = textureLod(body, at + vec3(step_uv.x, 0, 0), 0.0).xy - textureLod(body, at - vec3(step_uv.x, 0, 0), 0.0).xy;
-  vec2 dy = textureLod(body, at + vec3(0, step_uv.y, 0), 0.0).xy - textureLod(body, at - vec3(0, step_uv.y, 0), 0.0).xy;
-  vec2 dz = textureLod(body, at + vec3(0, 0, step_uv.z), 0.0).xy - textureLod(body, at - vec3(0, 0, step_uv.z), 0.0).xy;
-  mat3 to_patient = transpose(mat3(tissue_from_patient));
-  return mat2x3(to_patient * (vec3(dx.x, dy.x, dz.x) / step_uv), to_patient * (vec3(dx.y, dy.y, dz.y) / step_uv));
+// Returns the gradient of the opacity by central differences over one voxel, per patient mm.
+vec3 opacity_gradient(vec3 at) {
+  vec3 reach = 1.0 / vec3(textureSize(body, 0)), change;
+  for (int axis = 0; axis < 3; ++axis) {
+    vec3 aside = vec3(axis == 0, axis == 1, axis == 2) * reach;
+    change[axis] = textureLod(body, at + aside, 0.0).x - textureLod(body, at - aside, 0.0).x;
+  }
+  return transpose(mat3(tissue_from_patient)) * (change / reach);
 }
 
 // The state of a ray on its way through the patient.
@@ -69,21 +70,32 @@ int march_to_event(inout March march, float stop) {
   return kNothing;
 }
 
+// Composites the end of the CT where it cuts a body that is closed: what is within stays hidden.
+void composite_end(March march, vec3 direction) {
+  vec3 at = march.box_origin + march.t * march.box_direction, from_middle = abs(at - 0.5);
+  float farthest = max(max(from_middle.x, from_middle.y), from_middle.z);
+  vec3 face = vec3(greaterThanEqual(from_middle, vec3(farthest)));
+  vec2 light = lighting(facing(transpose(mat3(tissue_from_patient)) * face, direction), direction);
+  composite(kSkinColour * light.x, 1.0);
+}
+
 // Advances to `stop`, and composites the skin and the organs on the way.
 void march_to(inout March march, vec3 direction, float stop) {
-  vec3 voxel_uv = 1.0 / vec3(textureSize(body, 0));
+  bool enters = skin >= 1.0 && march.before < 0.0 && march.t > 0.0 && march.t < stop;
+  for (bool todo = enters; todo; todo = false)
+    if (textureLod(body, march.box_origin + march.t * march.box_direction, 0.0).y > 0.5) composite_end(march, direction);
   for (int i = 0; i < 256 && march.t < stop && sum.a < kOpaque; ++i) {
     int event = march_to_event(march, stop);
     float t_event = event == kSkin ? mix(march.t_before, march.t, (0.5 - march.before) / (march.here - march.before))
                                    : march.t;
-    mat2x3 gradient = gradients(march.box_origin + t_event * march.box_direction, voxel_uv);
-    vec3 normal = facing(gradient[event == kSkin ? 1 : 0], direction);
+    vec3 at = march.box_origin + t_event * march.box_direction;
+    vec3 normal = facing(event == kSkin ? smooth_gradient(at) : opacity_gradient(at), direction);
     if (event == kSkin) {
       // The skin looks like glass: more opaque where it turns away from the viewer, less when seen from within.
       float rim = 1.0 - abs(dot(normal, direction));
       float side = march.here > march.before ? 1.0 : 0.5;
       vec2 light = lighting(normal, direction);
-      composite(kSkinColour * light.x + 0.15 * light.y, mix(skin, 0.7, rim * rim) * side);
+      composite(kSkinColour * light.x + 0.15 * light.y, mix(skin, max(skin, 0.7), rim * rim) * side);
       march.before = march.here;
     } else if (event == kOrgan) {
       march.light = lighting(normal, direction);

@@ -48,7 +48,6 @@ void ClassifiedCt::update(const PatientTextures& patient, const CtVolumeStyle& s
 void ClassifiedCt::bind() const {
   table_.bind(8);
   distance_.bind(9);
-  patient_->smooth_ct().bind(10);
   if (shows_structures()) surfaces_.bind(11);
 }
 

@@ -201,6 +201,7 @@ void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane,
   inputs.patient->tissue().bind(2);
   inputs.patient->body().bind(3);
   inputs.patient->distance().bind(4);
+  inputs.patient->smooth_ct().bind(10);
   if (!inputs.style.ct) return;
   classified.update(*inputs.patient, *inputs.style.ct);
   classified.bind();

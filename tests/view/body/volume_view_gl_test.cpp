@@ -221,6 +221,62 @@ TEST_CASE("Skin shows what is within") {
   CHECK((brightness(0, true) - brightness(0, false)) / bone == Approx(0.8).margin(0.15));
 }
 
+// A sphere's own shade bends by 0.9 levels over 3 pixels to either side, and the skin's by 2.5. The gradient of the
+// body's share, which is smoothed less, bends it by 9.8: lines along the voxels.
+TEST_CASE("A ball's skin has a smooth shade, without the voxels' layers") {
+  Scene scene(test::ct_of(test::skewed_grid(90), [](const auto& p) { return glm::length(p) < 60 ? 30.0 : -1000.0; }),
+              {}, {});
+  OrbitCamera camera;
+  camera.distance_mm = 500;
+  VolumeStyle style = only_bone();
+  style.skin = 1;
+  VolumeView view;
+  const Image<Rgba8> image = test::read(view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style));
+  const double radius =
+      0.5 * glm::distance(camera.project({0, 0, 60}, kWidth, kHeight), camera.project({0, 0, 0}, kWidth, kHeight));
+  double squares = 0, count = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      if (glm::length(glm::dvec2(x - kWidth / 2, y - kHeight / 2)) > radius) continue;
+      const double bend = image.at(x - 3, y)[0] - 2 * image.at(x, y)[0] + image.at(x + 3, y)[0];
+      squares += bend * bend;
+      ++count;
+    }
+  REQUIRE(count > 1000);
+  CHECK(std::sqrt(squares / count) < 4);
+}
+
+TEST_CASE("A closed body shows nothing within where the CT ends") {
+  const Grid grid = test::skewed_grid(60);
+  const auto scene_with = [&](double within) {
+    return Scene(test::ct_of(grid,
+                             [&](const glm::dvec3& p) {
+                               const glm::dvec3 local = glm::transpose(grid.direction) * p;
+                               const double from_axis = glm::length(glm::dvec2(local));
+                               return from_axis < 20 ? within : from_axis < 40 ? 30.0 : -1000.0;
+                             }),
+                 {}, {});
+  };
+  VolumeStyle style = only_bone();
+  style.skin = 1;
+  const auto seen = [&](double within, double side) {
+    Scene scene = scene_with(within);
+    OrbitCamera camera;
+    camera.distance_mm = 400;
+    const glm::dvec3 from = side * grid.direction[2];
+    camera.yaw_deg = glm::degrees(std::atan2(from.x, -from.y));
+    camera.pitch_deg = glm::degrees(std::asin(from.z));
+    VolumeView view;
+    return test::read(view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style));
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const Image<Rgba8> bone = seen(1000, side), soft = seen(30, side);
+    CHECK((bone.pixels == soft.pixels));
+    CHECK(bone.at(kWidth / 2, kHeight / 2)[0] > 60);
+    CHECK(bone.at(kWidth / 2, kHeight / 2) == bone.at(kWidth / 2 + 20, kHeight / 2));
+  }
+}
+
 TEST_CASE("The probe stands on the skin with its marker on the side of the picture's right edge") {
   Scene scene = bone_scene([](const auto& p) { return glm::length(p) < 5; });
   OrbitCamera camera;
