@@ -81,7 +81,7 @@ bool has_sensor(const std::string& uri) {
 
 std::string summary_of(const AttemptSummary& attempt) {
   char score[48];
-  std::snprintf(score, sizeof score, "%s %%, %s", short_number(attempt.percent).c_str(),
+  std::snprintf(score, sizeof score, "%s %%, %s", fixed(attempt.percent, 1).c_str(),
                 attempt.passed ? "passed" : "not passed");
   return attempt.learner + ", " + score + ", " + (attempt.mode ? name_of(attempt.mode) + ", " : "") +
          time_text(attempt.finished_ms / 1000);

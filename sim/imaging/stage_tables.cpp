@@ -11,6 +11,7 @@
 #include "sim/model/beam.h"
 #include "sim/model/noise.h"
 #include "sim/model/refraction.h"
+#include "sim/model/reverberation.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/waves.h"
 
@@ -200,7 +201,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.least_alpha_with_normal = float(least_alpha_with_normal(settings));
   p.reflection_exponent_px = float(reflection.exponent);
   p.transmission_exponent_px = float(transmission.exponent);
-  p.face_reflection = float(settings.face_reflection);
+  p.face_reflection = float(face_reflection(settings, lines.fan.steering));
   p.mirror_amplitude = float(std::sqrt(settings.mirror_image));
   p.face_amplitude = float(std::sqrt(settings.face_reflection));
   p.deflection_kept = float(std::exp(-dr / kDeflection_mm));

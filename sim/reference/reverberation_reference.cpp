@@ -88,7 +88,7 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
       const Reflector& deep = reflectors[j];
       const double echo = reflection.at(line, deep.sample), before = along.before(deep.sample);
       repeat(deep, echo, deep.place_mm,
-             settings.face_reflection * counted(deep.strength * before * before, kLeastFromFace));
+             face_reflection(settings, lines.fan.steering) * counted(deep.strength * before * before, kLeastFromFace));
       for (std::size_t i = 0; i < j && settings.reverberation; ++i) {
         const Reflector& shallow = reflectors[i];
         const double apart = deep.place_mm - shallow.place_mm;

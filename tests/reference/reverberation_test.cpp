@@ -77,6 +77,22 @@ TEST_CASE("a repeat leaves the picture at the lines' end without a step") {
   CHECK(last(41) == 0);
 }
 
+TEST_CASE("the probe's face repeats what straight lines meet, and nothing along steered ones") {
+  Settings settings = without_absorption(1);
+  settings.face_reflection = 1;
+  Image<double> intensity(1, 60), reflection(1, 60);
+  std::fill(intensity.pixels.begin(), intensity.pixels.end(), 1.0);
+  reflection.at(0, 19) = 0.5;
+  ScanLines lines = one_line(60, 60);
+  const auto loudest = [&] {
+    const Image<double> repeats = reverberation_reference(intensity, reflection, lines, settings);
+    return *std::ranges::max_element(repeats.pixels);
+  };
+  CHECK(loudest() > 0.1);
+  lines.fan.steering = 0.1;
+  CHECK(loudest() == 0);
+}
+
 TEST_CASE("a surface that a slice's planes meet at different depths holds no sound between them") {
   Probe probe = *find_probe("linear");
   probe.lines = 8;

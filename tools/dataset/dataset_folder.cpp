@@ -219,7 +219,8 @@ void DatasetFolder::complete() const {
   json["shards"] = std::move(shards);
   // The name of a device comes from a shard, which may be damaged.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (read_file(manifest_file(), kLargestManifest) != text) write_file(manifest_file(), text);
+  read_file(manifest_file(), kLargestManifest) == text ? remove_old_temporaries(manifest_file())
+                                                       : write_file(manifest_file(), text);
 
   // All shards are there, so a process that still writes one does so in vain.
   std::error_code error;

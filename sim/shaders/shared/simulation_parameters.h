@@ -62,7 +62,7 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float speckle_variance;    // v_0 of sim/model/display_filter.h
   float filter_exponent_px;  // -1/(2 s^2) of its window, s in pixels
   float mirror_amplitude;    // of what gas mirrors
-  float face_amplitude;      // (face_reflection)^(1/2)
+  float face_amplitude;      // of mirror images: the root of the settings' face_reflection
 
   vec4 tgc_db[2];  // time gain at 8 depths from the face to full depth
 #ifdef __cplusplus

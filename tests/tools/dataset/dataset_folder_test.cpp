@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <chrono>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -109,8 +110,12 @@ TEST_CASE("a dataset is completed by what its shards state, once and for all") {
   CHECK_FALSE(fs::exists(set.place.path / "set/shards/.00001.host.7.partial.h5"));
   const std::string text = read_file(set.manifest);
   CHECK_THAT(text, Contains("\"devices\": [\n    \"llvmpipe\"\n  ]"));
+  // A program that was killed a day ago left this, when the manifest was already the one above.
+  const fs::path left = set.place.file("set/.manifest.0123456789abcdef.partial.json", "{");
+  fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(25));
   set.folder.complete();
   CHECK(read_file(set.manifest) == text);
+  CHECK_FALSE(fs::exists(left));
   CHECK(set.folder.damage().empty());
   // A shard may hold any bytes as the name of its device.
   const hid_t type = H5Tcopy(H5T_C_S1);
