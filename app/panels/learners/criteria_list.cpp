@@ -83,7 +83,7 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
   for (const CriterionTrend& criterion : trend.criteria) attempts = std::max(attempts, criterion.shares.size());
   const Columns columns = columns_of(theme, head, attempts);
   draw_text(columns.name, theme.small_text, colour::kFaint, "Most lost first");
-  draw_text(columns.bars, theme.small_text, colour::kFaint, "Share earned");
+  draw_text(columns.bars, theme.small_text, colour::kFaint, "Earned");
   draw_text(columns.lost, theme.small_text, colour::kFaint, "Lost points", Align::right);
   where.take_top(theme.px(4));
   if (trend.lost_to_hints > 0) {

@@ -49,8 +49,7 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
   const Columns columns = columns_of(theme, row);
   const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
   const ImU32 ink = mark.fails_exam() ? colour::kRed : share < 0.5 ? colour::kAmber : colour::kText;
-  std::string name = title_of(mark.metric);
-  if (mark.critical) name += " (critical)";
+  const std::string name = (mark.critical ? "Critical: " : "") + title_of(mark.metric);
   draw_text(columns.criterion, theme.text, mark.fails_exam() ? colour::kRed : colour::kText, name);
   draw_text(columns.value, theme.text, ink, mark.value ? in_words(mark.metric, *mark.value) : "\u2013", Align::right);
   draw_text(columns.limits, theme.small_text, colour::kMuted,

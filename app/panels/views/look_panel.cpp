@@ -213,7 +213,10 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
 
   // The looks, in rows that fill the width.
   const std::size_t count = look.offered().size() + 1;
-  const std::size_t per_row = std::max<std::size_t>(2, std::size_t(rest.w / theme.px(68)));
+  float widest = 0;
+  for (const view::TransferFunction& offered : look.offered())
+    widest = std::max(widest, text_width(theme.text, offered.name + " *"));
+  const std::size_t per_row = std::max<std::size_t>(2, std::size_t((rest.w + gap) / (widest + theme.px(16) + gap)));
   for (std::size_t first = 0; first < count; first += per_row) {
     Rect row = rest.take_top(high);
     rest.take_top(theme.px(4));

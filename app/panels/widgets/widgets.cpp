@@ -236,8 +236,9 @@ bool upright_slider(const Theme& theme, const char* id, const Rect& where, doubl
 }
 
 void draw_tip(const Theme& theme, const Rect& of, std::string_view text) {
-  constexpr float kRest_s = 0.5f;
-  if (ImGui::IsItemHovered() && ImGui::GetCurrentContext()->HoveredIdTimer > kRest_s) draw_box(theme, of, text);
+  constexpr float kRest_s = 0.5f, kRead_s = 8;  // longer, it would cover what is beside it for no reason
+  const float hovered_s = ImGui::GetCurrentContext()->HoveredIdTimer;
+  if (ImGui::IsItemHovered() && hovered_s > kRest_s && hovered_s < kRead_s) draw_box(theme, of, text);
 }
 
 void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {

@@ -4,6 +4,7 @@
 #include "app/panels/pages/help_page.h"
 #include "app/panels/pages/settings_page.h"
 #include "app/panels/scan/guide_layer.h"
+#include "app/panels/views/look_panel.h"
 #include "sim/core/files.h"
 
 using namespace insonate;
@@ -75,6 +76,16 @@ TEST_CASE("the settings can be read in every size of text, with long paths") {
   preferences.results = "/home/somebody/Documents/Ultrasound/Practice/Results of this year/results.db";
   check_readable([&](const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
     draw_settings(theme, screen, preferences, {}, "/home/somebody/.config/insonate/settings.toml", places);
+  });
+}
+
+TEST_CASE("the looks of the patient have their whole names in every size of text") {
+  PatientLook look;
+  look.choose(std::nullopt);
+  check_readable([&](const Theme& theme, const Rect& screen, std::map<std::string, Rect>& places) {
+    ImGui::Begin("look");
+    LookPanel().draw(theme, {0, 0, screen.w * 0.4f, screen.h * 0.4f}, look, places);
+    ImGui::End();
   });
 }
 
