@@ -267,11 +267,11 @@ float share(float x) {
 }
 
 float sheet(float noise, float width) {
-  return std::max(0.0f, 1.0f - std::abs(noise) / width);
+  return share(1.6f * (1.0f - std::abs(noise) / width));
 }
 
 float tube(float r, float at, float half_width) {
-  return std::max(0.0f, 1.0f - std::abs(r - at) / half_width);
+  return share(1.6f * (1.0f - std::abs(r - at) / half_width));
 }
 
 /// Places of one structure.
@@ -308,17 +308,17 @@ public:
       case Structure::medulla:
         return times(0.4f, noise(1, p, 2));
       case Structure::glandular:
-        return times(1.8f, noise(2, p, 3));
+        return times(2.2f, noise(2, p, 3.5f));
       case Structure::sinus:
         return times(1.5f, noise(3, p, 3.5f));
       case Structure::mixed:
-        return sum(times(2.0f, noise(4, p, 5)), times(1.0f, noise(5, p, 2)));
+        return sum(times(2.5f, noise(4, p, 6)), times(1.5f, noise(5, p, 2.5f)));
       case Structure::organ:
         return organ(p);
       case Structure::muscle:
-        return sum(stripes(7, p, {7, 28, 3.2f, 0.8f}, 20), times(0.5f, noise(10, p, 4)));
+        return sum(stripes(30, p, {13, 10, 28, 2.4f, 1.0f}), times(0.5f, noise(10, p, 4)));
       case Structure::fat:
-        return sum(stripes(6, p, {14, 14, 6, 0.5f}, 20), times(0.7f, noise(13, p, 5)));
+        return sum(stripes(40, p, {11, 13, 13, 4.5f, 0.6f}), times(0.7f, noise(13, p, 5)));
       case Structure::kidney:
         return sum(pyramids(p), times(0.4f, noise(1, p, 2)));
     }
@@ -327,7 +327,7 @@ public:
 
 private:
   struct Sheets {
-    float across_mm, along_mm, apart_mm, width;
+    float peak_db, across_mm, along_mm, apart_mm, width;
   };
 
   std::vector<float> noise(std::uint32_t layer, const std::vector<float>& x, const std::vector<float>& y,
@@ -361,18 +361,18 @@ private:
   }
 
   std::vector<float> organ(const Places& p) const {
-    const std::vector<float> portal = from_lines(20, p, 13), vein = from_lines(22, p, 16);
+    const std::vector<float> portal = from_lines(20, p, 14), vein = from_lines(22, p, 16);
     const std::vector<float> fade = noise(24, p, 18), other_fade = noise(25, p, 18), mottle = noise(26, p, 8);
     std::vector<float> db(p.size());
     for (std::size_t n = 0; n < db.size(); ++n) {
-      const float wall = 6 * tube(portal[n], 1.7f, 1.3f * widened_), lumen = 4 * tube(portal[n], 0, widened_);
+      const float wall = 9 * tube(portal[n], 1.8f, 1.6f * widened_), lumen = 8 * tube(portal[n], 0, widened_);
       db[n] = share(0.5f + fade[n]) * (wall - lumen) -
-              share(0.5f + other_fade[n]) * 5 * tube(vein[n], 0, 1.5f * widened_) + 0.5f * mottle[n];
+              share(0.5f + other_fade[n]) * 8 * tube(vein[n], 0, 2.0f * widened_) + 0.5f * mottle[n];
     }
     return db;
   }
 
-  std::vector<float> stripes(float peak_db, const Places& p, const Sheets& sheets, float modulation_mm) const {
+  std::vector<float> stripes(std::uint32_t layer, const Places& p, const Sheets& sheets) const {
     const glm::vec3 deep = glm::normalize(glm::vec3(0.6f, 0.5f, 0.62f));
     std::vector<float> x(p.size()), y(p.size()), z(p.size());
     for (std::size_t n = 0; n < p.size(); ++n) {
@@ -381,11 +381,11 @@ private:
       y[n] = p.y[n] / sheets.across_mm + deep.y * d;
       z[n] = p.z[n] / sheets.along_mm + deep.z * d;
     }
-    const auto layer = std::uint32_t(peak_db);
-    std::vector<float> db = noise(30 + layer, x, y, z);
-    const std::vector<float> modulation = noise(40 + layer, p, modulation_mm);
+    std::vector<float> db = noise(layer, x, y, z);
+    const std::vector<float> modulation = noise(layer + 1, p, 20);
     for (std::size_t n = 0; n < db.size(); ++n)
-      db[n] = peak_db * (0.6f + 0.4f * std::clamp(modulation[n], -1.0f, 1.0f)) * sheet(db[n], sheets.width * widened_);
+      db[n] = sheets.peak_db * (0.65f + 0.35f * std::clamp(modulation[n], -1.0f, 1.0f)) *
+              sheet(db[n], sheets.width * widened_);
     return db;
   }
 
@@ -394,7 +394,7 @@ private:
     constexpr float kGrain_mm = 9;
     std::vector<float> db = noise(50, times(1 / kGrain_mm, p.u), times(1 / kGrain_mm, p.v), times(1 / kGrain_mm, p.w));
     for (std::size_t n = 0; n < db.size(); ++n)
-      db[n] = -5 * share(1.5f * db[n] + 0.4f) * share(4 * (0.65f - p.outwards[n]));
+      db[n] = -7 * share(2 * db[n] + 0.6f) * share(6 * (0.72f - p.outwards[n]));
     return db;
   }
 
@@ -428,8 +428,8 @@ struct Shares {
 Shares shares_of(float hu, float depth_mm, float soft_share, bool has_labels) {
   constexpr float kOrgan = 0.5f;  // strength, because what the tissue is remains a guess
   Shares shares;
-  shares.fat = rising(hu, -150, -130) * rising(hu, -45, -65);
-  const float soft = rising(hu, 14, 28) * rising(hu, 130, 100);
+  shares.fat = rising(hu, -150, -130) * rising(hu, -20, -45);
+  const float soft = rising(hu, -45, -20) * rising(hu, 130, 100);
   const float thin = has_labels ? 1.0f : rising(soft_share, 0.8f, 0.7f);
   shares.muscle = soft * thin * rising(depth_mm, 65, 55);
   shares.organ = kOrgan * (soft - shares.muscle);

@@ -47,7 +47,7 @@
 namespace insonate {
 
 /// Structure is bounded: no voxel is shifted by more, dB.
-inline constexpr double kMostStructureDb = 6;
+inline constexpr double kMostStructureDb = 8;
 
 /// Larger voxels, mm, cannot hold structure, and get none. Cases and scans are resampled to 1 mm before.
 inline constexpr double kLargestStructuredVoxel_mm = 1.6;
