@@ -316,9 +316,9 @@ public:
       case Structure::organ:
         return organ(p);
       case Structure::muscle:
-        return sum(stripes(30, p, {13, 10, 28, 2.4f, 1.0f}), times(0.5f, noise(10, p, 4)));
+        return sum(sheets(30, p, {16, 30, 3.2f}, 11, 0.7f), times(2, layered(10, p, {5, 30, 1.7f})));
       case Structure::fat:
-        return sum(stripes(40, p, {11, 13, 13, 4.5f, 0.6f}), times(0.7f, noise(13, p, 5)));
+        return sum(sheets(40, p, {16, 16, 4}, 11, 0.65f), times(0.7f, noise(13, p, 5)));
       case Structure::kidney:
         return sum(pyramids(p), times(0.4f, noise(1, p, 2)));
     }
@@ -326,8 +326,8 @@ public:
   }
 
 private:
-  struct Sheets {
-    float peak_db, across_mm, along_mm, apart_mm, width;
+  struct Stretch {
+    float across_mm, along_mm, apart_mm;
   };
 
   std::vector<float> noise(std::uint32_t layer, const std::vector<float>& x, const std::vector<float>& y,
@@ -372,20 +372,27 @@ private:
     return db;
   }
 
-  std::vector<float> stripes(std::uint32_t layer, const Places& p, const Sheets& sheets) const {
+  /// Returns noise that is stretched along the skin: the header's N(q).
+  std::vector<float> layered(std::uint32_t layer, const Places& p, const Stretch& q) const {
     const glm::vec3 deep = glm::normalize(glm::vec3(0.6f, 0.5f, 0.62f));
     std::vector<float> x(p.size()), y(p.size()), z(p.size());
     for (std::size_t n = 0; n < p.size(); ++n) {
-      const float d = p.depth[n] / sheets.apart_mm;
-      x[n] = p.x[n] / sheets.across_mm + deep.x * d;
-      y[n] = p.y[n] / sheets.across_mm + deep.y * d;
-      z[n] = p.z[n] / sheets.along_mm + deep.z * d;
+      const float d = p.depth[n] / q.apart_mm;
+      x[n] = p.x[n] / q.across_mm + deep.x * d;
+      y[n] = p.y[n] / q.across_mm + deep.y * d;
+      z[n] = p.z[n] / q.along_mm + deep.z * d;
     }
-    std::vector<float> db = noise(layer, x, y, z);
+    return noise(layer, x, y, z);
+  }
+
+  /// Returns sheets whose brightness comes and goes.
+  std::vector<float> sheets(std::uint32_t layer, const Places& p, const Stretch& q, float peak_db, float width) const {
+    constexpr float kMeanSheet = 0.35f;  // so that modulation does not change the mean brightness
+    std::vector<float> db = layered(layer, p, q);
     const std::vector<float> modulation = noise(layer + 1, p, 20);
     for (std::size_t n = 0; n < db.size(); ++n)
-      db[n] = sheets.peak_db * (0.65f + 0.35f * std::clamp(modulation[n], -1.0f, 1.0f)) *
-              sheet(db[n], sheets.width * widened_);
+      db[n] = peak_db * (0.65f + 0.35f * std::clamp(modulation[n], -1.0f, 1.0f)) *
+              (sheet(db[n], width * widened_) - kMeanSheet);
     return db;
   }
 
