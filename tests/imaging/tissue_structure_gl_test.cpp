@@ -77,8 +77,6 @@ TEST_CASE("structure shows in pictures, and changes the mean grey of no tissue b
     INFO((tissue.empty() ? "no label" : tissue)
          << ": grey " << before.mean << " becomes " << with.mean << ", deviation of patches " << before.of_patches
          << " becomes " << with.of_patches);
-    std::printf("%s %.2f %.2f  %.2f %.2f\n", tissue.c_str(), before.mean, with.mean, before.of_patches,
-                with.of_patches);
     CHECK(std::abs(with.mean - before.mean) < 3);
     if (tissue == "spleen")
       CHECK(with.of_patches < 1.1 * before.of_patches);
