@@ -27,8 +27,8 @@ enum class Structure { none, even, organ, glandular, muscle, fat, mixed, kidney,
 
 /// The properties of a labelled tissue: its backscatter is known from its name, not guessed from its density.
 struct LabelledTissue {
-  double echogenicity_db = 0;  ///< relative to liver, -60 (echo-free) to 30
-  Structure structure = Structure::none;
+  double echogenicity_db = 0;             ///< relative to liver, -60 (echo-free) to 30
+  Structure structure = Structure::none;  ///< in pictures with Settings::waves
 };
 
 /// Maps Hounsfield units and tissue names to acoustic properties. Air and bone are knots too. Two steep ramps replace
