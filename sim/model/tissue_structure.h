@@ -41,9 +41,8 @@
 ///   of lower limb muscle injury, AJR 182, 2004). Fat below the skin is dark, with thin bright septa that mostly lie
 ///   parallel to the skin.
 /// - kidney: where a kidney's label has a sinus and no tissue of the case is a medulla, pyramids are dark cones from
-/// the
-///   sinus outwards. t is the place between sinus (0) and capsule (1) by distance, s the nearest point of the sinus.
-///   Cortex outside the pyramids is 7 to 10 mm thick, of a parenchyma of 15 to 20 mm (Hansen, Nielsen, Ewertsen,
+///   the sinus outwards. t is the place between sinus (0) and capsule (1) by distance, s the nearest point of the
+///   sinus. Cortex outside the pyramids is 7 to 10 mm thick, of a parenchyma of 15 to 20 mm (Hansen, Nielsen, Ewertsen,
 ///   Diagnostics 6, 2016); here it is thinner, because the label's surface is blurred by voxels. Kidneys without a
 ///   sinus are even.
 ///
