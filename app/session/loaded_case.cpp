@@ -76,7 +76,7 @@ LoadedCase load_case(const CaseSource& source, const LoadProgress& progress) {
 
   progress("Working out what the sound will meet", 0);
   loaded_case.acoustic = make_acoustic_volume(loaded_case.subject.ct, loaded_case.subject.labels,
-                                              tissue_by_label(loaded_case.subject), loaded_case.tissues);
+                                              tissue_by_label(loaded_case.subject), loaded_case.tissues, true);
   loaded_case.surroundings = find_surroundings(loaded_case.subject.ct);
   progress("Starting", 1);
   return loaded_case;

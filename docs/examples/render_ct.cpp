@@ -21,7 +21,8 @@ int main(int argc, char** argv) try {
   // The patient: a CT as the sound meets it.
   const Case patient = open_case(argv[1]);
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
-  const AcousticVolume volume = make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues);
+  const AcousticVolume volume =
+      make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues, true);
   if (patient.views.empty()) throw std::runtime_error("there is no body in this CT");
 
   // The probe, where it is held, and the machine's settings.

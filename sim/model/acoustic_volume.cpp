@@ -15,6 +15,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/model/ct_noise.h"
+#include "sim/model/tissue_structure.h"
 
 namespace insonate {
 namespace {
@@ -176,15 +177,30 @@ AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<s
   return acoustic;
 }
 
+void add_structure(AcousticVolume& volume, const std::vector<std::int16_t>& structure_cdb) {
+  static const int least = centidecibel(kLeastEchogenicityDb), most = centidecibel(kMostEchogenicityDb);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, volume.voxels.size(), 1u << 18), [&](const auto& range) {
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      std::int16_t& cdb = volume.voxels[v].echogenicity_cdb;
+      if (cdb > least) cdb = std::int16_t(std::clamp(cdb + structure_cdb[v], least, most));
+    }
+  });
+}
+
 }  // namespace
 
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
-                                    const std::vector<std::string>& tissue_of, const TissueTable& table) {
+                                    const std::vector<std::string>& tissue_of, const TissueTable& table,
+                                    bool structure) {
   if (!labels.empty() && labels.grid.size != ct.grid.size)
     throw std::invalid_argument("make_acoustic_volume: the labels are on another grid than the CT");
   if (tissue_of.size() > kLabels) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
-  if (labels.empty()) return acoustic_volume_of(without_noise(ct, ct_noise_hu(ct)), labels, tissue_of, table);
-  return acoustic_volume_of(ct, labels, tissue_of, table);
+  const auto made_of = [&](const Volume<std::int16_t>& densities) {
+    AcousticVolume acoustic = acoustic_volume_of(densities, labels, tissue_of, table);
+    if (structure) add_structure(acoustic, tissue_structure_cdb(densities, labels, tissue_of, table));
+    return acoustic;
+  };
+  return labels.empty() ? made_of(without_noise(ct, ct_noise_hu(ct))) : made_of(ct);
 }
 
 std::string digest_of(const AcousticVolume& volume) {

@@ -79,10 +79,15 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 /// H, and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
 /// TissueTable::densest_air_hu() or less, the result is kLeastEchogenicityDb: no sound gets there, and the air around
 /// the body can be skipped.
+///
+/// With structure, tissue_structure_cdb() is added where scatterers are: to every voxel above kLeastEchogenicityDb
+/// outside the ends, clamped as labelled voxels are.
 /// @param labels     on the CT's grid, or empty
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
+/// @param structure  true for pictures with Settings::waves; the paper's mode and registration have none
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
-                                    const std::vector<std::string>& tissue_of, const TissueTable& table);
+                                    const std::vector<std::string>& tissue_of, const TissueTable& table,
+                                    bool structure = false);
 
 /// Returns what a medium absorbs in addition to its density's absorption, dB/(cm MHz), one way: above 0 at an end of
 /// the CT alone, also with Settings::absorption off.

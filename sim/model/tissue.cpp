@@ -16,6 +16,10 @@ constexpr double kLeastImpedance = 1e-4, kMostImpedance = 100;
 constexpr double kMostAbsorption = 1000;
 constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;
 
+// In the order of Structure.
+const std::vector<std::string> kStructureNames = {"none", "even",  "organ",  "glandular", "muscle",
+                                                  "fat",  "mixed", "kidney", "medulla",   "sinus"};
+
 TissueKnot read_knot(const TomlTable& entry) {
   return {int(entry.whole_number("hu", kLeastKnotHu, kMostKnotHu)),
           entry.number("impedance", {kLeastImpedance, kMostImpedance}),
@@ -61,7 +65,8 @@ TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
     const TomlTable tissues = root.table("tissue");
     for (const std::string& name : tissues.keys()) {
       const TomlTable entry = tissues.table(name);
-      table.labelled[name] = {entry.number("echogenicity_db", {kLeastEchogenicity, kMostEchogenicity})};
+      table.labelled[name] = {entry.number("echogenicity_db", {kLeastEchogenicity, kMostEchogenicity}),
+                              Structure(entry.choice("structure", kStructureNames, 0))};
     }
   }
   root.refuse_unknown_keys();

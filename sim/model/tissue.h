@@ -22,9 +22,13 @@ struct TissueKnot {
   double echogenicity_db = 0;  ///< backscatter relative to liver, used for voxels without a labelled tissue; -60 to 30
 };
 
+/// What a tissue is made of on the scale of millimetres, see tissue_structure.h.
+enum class Structure { none, even, organ, glandular, muscle, fat, mixed, kidney, medulla, sinus };
+
 /// The properties of a labelled tissue: its backscatter is known from its name, not guessed from its density.
 struct LabelledTissue {
-  double echogenicity_db = 0;  ///< relative to liver, -60 (echo-free) to 30
+  double echogenicity_db = 0;             ///< relative to liver, -60 (echo-free) to 30
+  Structure structure = Structure::none;  ///< in pictures with Settings::waves
 };
 
 /// Maps Hounsfield units and tissue names to acoustic properties. Air and bone are knots too. Two steep ramps replace

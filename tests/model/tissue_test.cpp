@@ -156,3 +156,14 @@ TEST_CASE("a tissue table that cannot be used is refused with the place and the 
   }
   CHECK_THROWS_AS(read_tissue_table("/none/tissues.toml"), InputError);
 }
+
+TEST_CASE("a labelled tissue names its structure, or has none") {
+  const std::string knots = knot("0") + knot("100");
+  const TissueTable table = read_tissue_table(kShipped);
+  CHECK(table.labelled.at("liver").structure == Structure::organ);
+  CHECK(table.labelled.at("kidney_sinus").structure == Structure::sinus);
+  CHECK(table.labelled.at("blood").structure == Structure::none);
+  const TemporaryFile file(knots + "[tissue.plain]\nechogenicity_db = 0\n");
+  CHECK(read_tissue_table(file.path).labelled.at("plain").structure == Structure::none);
+  CHECK(why_refused(knots + "[tissue.a]\nechogenicity_db = 0\nstructure = 'fats'\n").find("fat") != std::string::npos);
+}

@@ -28,7 +28,7 @@ const ReferenceView& chosen_view(const Case& subject, const std::string& file, c
   throw InputError(file, "", "there is no view named '" + name + "'", suggest(name, names));
 }
 
-Scene open_scene(const std::string& file, const std::string& view_name, const TissueTable& table) {
+Scene open_scene(const std::string& file, const std::string& view_name, bool structure, const TissueTable& table) {
   const Case subject = open_subject(file);
   const ReferenceView& view = chosen_view(subject, file, view_name);
   const Probe* probe = find_probe(view.probe);
@@ -36,7 +36,7 @@ Scene open_scene(const std::string& file, const std::string& view_name, const Ti
     throw InputError(file, "view '" + view.name + "'", "there is no probe named '" + view.probe + "'",
                      "name curvilinear or linear");
   return {file,          subject.name,
-          view.name,     make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table),
+          view.name,     make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table, structure),
           table,         *probe,
           view.depth_mm, view.patient_from_probe};
 }
@@ -48,8 +48,8 @@ const std::vector<Configuration> kPaperConfigurations = {
 
 void for_each_scene(const Request& request, const std::function<void(const Scene&)>& measure) {
   const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
-  if (request.built_in || request.subjects.empty()) measure(open_scene("", request.view, table));
-  for (const std::string& file : request.subjects) measure(open_scene(file, request.view, table));
+  if (request.built_in || request.subjects.empty()) measure(open_scene("", request.view, request.structure, table));
+  for (const std::string& file : request.subjects) measure(open_scene(file, request.view, request.structure, table));
 }
 
 std::vector<Configuration> configurations(const Request& request, const std::vector<Configuration>& usual) {

@@ -18,6 +18,7 @@ struct Request {
   std::vector<std::string> subjects;  ///< case folders, CT files, DICOM folders
   bool built_in = false;              ///< also use the built-in abdomen; it is the default if nothing is named
   std::string view;                   ///< name; empty for the first view
+  bool structure = false;             ///< of tissues, as the trainer has it
   int frames = 30;                    ///< number measured per setting
   std::vector<int> configurations;    ///< lines, samples, width, height, repeated; if empty, the command's own
 };

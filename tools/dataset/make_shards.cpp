@@ -133,7 +133,7 @@ void make_shards(const Study& study, const std::vector<StudyPatient>& patients, 
     if (!opened || opened->patient != &patient) {
       opened.reset();
       opened.emplace(study, patient, tissues.table);
-      pictures->set_patient(patient.of->source, opened->subject, tissues.table);
+      pictures->set_patient(patient.of->source, opened->subject, tissues.table, may_have_waves(study));
     }
     const Clock::time_point begun = Clock::now();
     make_shard(study, *opened, tissues, *pictures, folder, shard);
@@ -147,7 +147,7 @@ DatasetImage make_image(const Study& study, const std::vector<StudyPatient>& pat
   const StudyPatient& patient = patient_of(patients, index / study.shard_images);
   OpenedPatient opened(study, patient, tissues.table);
   PictureMaker pictures;
-  pictures.set_patient(patient.of->source, opened.subject, tissues.table);
+  pictures.set_patient(patient.of->source, opened.subject, tissues.table, may_have_waves(study));
   device = pictures.device();
   std::optional<DatasetImage> image;
   const auto take = [&](Shot&& shot, Image<std::uint8_t>&& grey) {

@@ -8,8 +8,10 @@
 
 namespace insonate {
 
-void PictureMaker::set_patient(const std::string& source, const Case& subject, const TissueTable& tissues) {
-  const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), tissues);
+void PictureMaker::set_patient(const std::string& source, const Case& subject, const TissueTable& tissues,
+                               bool structure) {
+  const AcousticVolume volume =
+      make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), tissues, structure);
   gl::upload_ct(source, volume.grid, [&] { simulator_.set_volume(volume, tissues); });
 }
 

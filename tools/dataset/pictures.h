@@ -22,8 +22,9 @@ public:
   using Take = std::function<void(Shot&& shot, Image<std::uint8_t>&& grey)>;
 
   /// Sets the patient of the following shots. Throws InputError if the device cannot hold the CT.
-  /// @param source  of the case, in error sentences
-  void set_patient(const std::string& source, const Case& subject, const TissueTable& tissues);
+  /// @param source     of the case, in error sentences
+  /// @param structure  as in make_acoustic_volume()
+  void set_patient(const std::string& source, const Case& subject, const TissueTable& tissues, bool structure);
 
   /// Draws a shot, and calls `take` for those before it that are done. A picture depends on its shot and the patient
   /// alone, not on what was drawn before.

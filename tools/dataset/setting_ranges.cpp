@@ -105,6 +105,14 @@ void read_setting_ranges(const TomlTable& table, Study& study) {
   }
 }
 
+bool may_have_waves(const Study& study) {
+  for (const SettingRange& range : study.settings)
+    if (range.name == "waves")
+      return std::any_of(range.choices.begin(), range.choices.end(),
+                         [](const SettingValue& value) { return std::get<bool>(value); });
+  return true;
+}
+
 Settings draw_settings(const Study& study, const Draws& draws, double frequency_mhz, double depth_mm,
                        std::uint32_t patient_seed) {
   Settings settings = trainer_settings(frequency_mhz, depth_mm);

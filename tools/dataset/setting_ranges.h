@@ -19,4 +19,7 @@ void read_setting_ranges(const TomlTable& table, Study& study);
 Settings draw_settings(const Study& study, const Draws& draws, double frequency_mhz, double depth_mm,
                        std::uint32_t patient_seed);
 
+/// Returns false if no image of the study has Settings::waves. Its patients then have no structure in their tissues.
+bool may_have_waves(const Study& study);
+
 }  // namespace insonate

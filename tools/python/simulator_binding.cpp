@@ -37,7 +37,7 @@ public:
     AcousticVolume volume;
     {
       const py::gil_scoped_release without_lock;
-      volume = make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues());
+      volume = make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues(), true);
     }
     with([&](gl::Simulator& simulator) {
       gl::upload_ct(case_->source, volume.grid, [&] { simulator.set_volume(volume, tissues()); });

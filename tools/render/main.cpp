@@ -369,12 +369,14 @@ int main(int argc, char** argv) {
     if (depth_mm == 0) depth_mm = probe->depth_mm;
 
     const std::vector<std::string> tissue_of = tissue_by_label(subject);
-    const auto volume_of = [&] { return make_acoustic_volume(subject.ct, subject.labels, tissue_of, table); };
+    const auto volume_of = [&](bool structure) {
+      return make_acoustic_volume(subject.ct, subject.labels, tissue_of, table, structure);
+    };
     if (model == "W") {
       WeinSettings settings = settings_file.empty() ? WeinSettings{} : read_wein_settings(settings_file);
       settings.image_width = width.value_or(settings.image_width);
       settings.image_height = height.value_or(settings.image_height);
-      const AcousticVolume volume = volume_of();
+      const AcousticVolume volume = volume_of(false);
       const WeinScene scene{volume, *probe, depth_mm, settings, pose};
       const RenderedWein rendered = render_wein(subject_path, scene, by_reference);
       write_all(rendered.stages.grey, [&](const auto& folder) { write_stages(folder, scene, rendered); });
@@ -387,7 +389,7 @@ int main(int argc, char** argv) {
     settings.image_width = width.value_or(settings.image_width);
     settings.image_height = height.value_or(settings.image_height);
 
-    const AcousticVolume volume = volume_of();
+    const AcousticVolume volume = volume_of(settings.waves);
     if (to_volume) {
       const double pivot =
           pivot_mm.value_or(probe->kind == ProbeKind::linear ? kLinearPivot_mm : apex_behind_mm(*probe));

@@ -34,9 +34,9 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float noise_level;  // mean of the electronic noise in units of U; 0 for none
   float gain_db;
 
-  float dynamic_range_db;  // beta
-  float clutter_kept;      // e^(-dr/kClutterTail_mm), see sim/model/noise.h
-  float deflection_kept;   // e^(-dr/kDeflection_mm), see sim/model/refraction.h
+  float dynamic_range_db;     // beta
+  float clutter_kept;         // e^(-dr/kClutterTail_mm), see sim/model/noise.h
+  float deflection_kept;      // e^(-dr/kDeflection_mm), see sim/model/refraction.h
   float deflection_per_step;  // dr/(l kDeflection_rad)
 
   float deflection_loss;  // dr/kDeflection_mm

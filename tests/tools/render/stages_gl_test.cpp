@@ -386,8 +386,9 @@ Stages<float> stages_of(const StageFolder& folder, const Settings& settings) {
   return stages;
 }
 
-AcousticVolume acoustic(const Volume<std::int16_t>& ct) {
-  return make_acoustic_volume(ct, {}, {}, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+/// Returns what a view meets: tissues have structure in pictures with waves alone.
+AcousticVolume acoustic(const Volume<std::int16_t>& ct, const View& view) {
+  return make_acoustic_volume(ct, {}, {}, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), &view == &kWaves);
 }
 
 StageFolder export_of(const TemporaryFolder& folder, const Volume<std::int16_t>& ct, const View& view,
@@ -402,7 +403,7 @@ TEST_CASE("each file of the graphics card's stages has its form, and holds the s
   const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
   const TemporaryFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
-  const AcousticVolume volume = acoustic(ct);
+  const AcousticVolume volume = acoustic(ct, view);
   const StageFolder stages = export_of(folder, ct, view, "");
   const Insonated scene(folder, view, volume);
   CHECK(stages.description.at("made_by") != "reference in double precision");
@@ -415,7 +416,7 @@ TEST_CASE("each file of the reference's stages has its form, and holds the stage
   const View& view = GENERATE_REF(kSlice, kWaves, kPaper);
   const TemporaryFolder folder;
   const Volume<std::int16_t> ct = synthetic_ct();
-  const AcousticVolume volume = acoustic(ct);
+  const AcousticVolume volume = acoustic(ct, view);
   const StageFolder stages = export_of(folder, ct, view, "--reference");
   const Insonated scene(folder, view, volume);
   CHECK(stages.description.at("made_by") == "reference in double precision");
@@ -451,7 +452,7 @@ TEST_CASE("a CT that is resampled lies beside the stages as it was insonated") {
       for (int i = 0; i < coarse.grid.size.x; ++i) coarse.voxels.push_back(fine.at(3 * glm::ivec3(i, j, k) + 1));
   const TemporaryFolder folder;
   const StageFolder stages = export_of(folder, coarse, kPaper, "--reference");
-  const AcousticVolume insonated = acoustic(resample_isotropic(coarse, kInsonatedVoxelMm));
+  const AcousticVolume insonated = acoustic(resample_isotropic(coarse, kInsonatedVoxelMm), kPaper);
   CHECK(glm::distance(insonated.grid.origin, fine.grid.origin) < 1e-9);
   check_export(stages, kPaper, Insonated(folder, kPaper, insonated));
 }

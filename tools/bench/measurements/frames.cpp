@@ -53,7 +53,9 @@ Table measure_frames(const Request& request) {
 
   const gl::HeadlessContext context;
   tell_device();
-  for_each_scene(request, [&](const Scene& scene) {
+  Request with_structure = request;
+  with_structure.structure = true;
+  for_each_scene(with_structure, [&](const Scene& scene) {
     gl::Simulator simulator;
     gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
     for (const std::string mode : {"paper", "trainer", "machine"}) {
