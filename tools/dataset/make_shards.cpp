@@ -12,6 +12,7 @@
 #include "tools/cli/about.h"
 #include "tools/cli/subject.h"
 #include "tools/dataset/pictures.h"
+#include "tools/dataset/setting_ranges.h"
 #include "tools/dataset/shard_file.h"
 #include "tools/dataset/truth_writer.h"
 
