@@ -77,18 +77,28 @@ GlWindow open_gl_window(const std::string& title, int width, int height) {
   return window;
 }
 
-void present(GLFWwindow* window, const ui::Canvas& canvas, bool whole) {
+void Presenter::show(GLFWwindow* window, const ui::Canvas& canvas, bool whole) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  const PartialSwap* const parts = whole || !gl::is_software_renderer() ? nullptr : PartialSwap::find();
-  if (!parts) {
-    canvas.show();
-    glfwSwapBuffers(window);
-    return;
+  // The size of the back buffer changes with a swap alone, and a box beyond it would end the program: an error of X. So
+  // the window must have had the canvas's size when it was last swapped, and still have it.
+  const auto fits = [&] {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    return width == canvas.width() && height == canvas.height();
+  };
+  const PartialSwap* const parts = gl::is_software_renderer() ? PartialSwap::find() : nullptr;
+  if (parts && !whole && width_ == canvas.width() && height_ == canvas.height()) {
+    for (const ui::PixelBox& box : canvas.drawn()) canvas.show(box);
+    if (fits()) {
+      for (const ui::PixelBox& box : canvas.drawn())
+        parts->copy(box.x, canvas.height() - box.end_y, box.end_x - box.x, box.end_y - box.y);
+      return;
+    }
   }
-  for (const ui::PixelBox& box : canvas.drawn()) {
-    canvas.show(box);
-    parts->copy(box.x, canvas.height() - box.end_y, box.end_x - box.x, box.end_y - box.y);
-  }
+  canvas.show();
+  glfwSwapBuffers(window);
+  width_ = fits() ? canvas.width() : 0;
+  height_ = canvas.height();
 }
 
 }  // namespace insonate

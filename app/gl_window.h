@@ -28,8 +28,15 @@ using GlWindow = std::unique_ptr<GLFWwindow, WindowDeleter>;
 /// @param width, height  in the units of GLFW's screen coordinates; on a smaller screen the window fills it
 GlWindow open_gl_window(const std::string& title, int width, int height);
 
-/// Shows a canvas in a window that is current, whole or only where its last draw() has drawn. A software renderer then
-/// copies only that; a graphics card swaps the whole window, at the display's own rate.
-void present(GLFWwindow* window, const ui::Canvas& canvas, bool whole);
+/// Shows a canvas in the window that is current.
+class Presenter {
+public:
+  /// Shows the canvas whole, or only where its last draw() has drawn. A software renderer then copies only that; a
+  /// graphics card swaps the whole window, at the display's own rate.
+  void show(GLFWwindow* window, const ui::Canvas& canvas, bool whole);
+
+private:
+  int width_ = 0, height_ = 0;  ///< of the window when it was last shown whole, pixels
+};
 
 }  // namespace insonate

@@ -190,7 +190,7 @@ private:
     open_dropped();
     if (glfwWindowShouldClose(window_)) {
       glfwSetWindowShouldClose(window_, GLFW_FALSE);
-      screen_.close_window(trainer_);
+      screen_.quit(trainer_);
     }
     const bool moved = events_.keyboard.apply(trainer_, screen_, now_s - last_s_, events_.mouse.waiting_since_s());
     last_s_ = now_s;
@@ -249,7 +249,7 @@ private:
   }
 
   void show(bool whole) {
-    present(window_, screen_.canvas(), whole);
+    presenter_.show(window_, screen_.canvas(), whole);
     ++shown_;
     if (times_) times_->end(FramePart::present);
   }
@@ -258,6 +258,7 @@ private:
   Options options_;
   Trainer trainer_;
   ui::Screen screen_;
+  Presenter presenter_;
   Events events_;
   Cursors cursors_;
   QualityGovernor governor_;

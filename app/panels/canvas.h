@@ -44,6 +44,7 @@ public:
   Image<Rgba8> read(const PixelBox& box) const;
   Image<Rgba8> read() const { return read({0, 0, width_, height_}); }
 
+  int width() const { return width_; }
   int height() const { return height_; }
   /// Returns what the last draw() has drawn; the boxes do not overlap.
   const std::vector<PixelBox>& drawn() const { return drawn_; }

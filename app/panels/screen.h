@@ -101,16 +101,12 @@ public:
   void toggle_volume(const Trainer& trainer);
   VolumePage& volume_page() { return volume_page_; }
   const VolumePage& volume_page() const { return volume_page_; }
-  /// Goes back to the start page. Asks first if unfinished steps or an unsaved sweep would be lost, as the next three
-  /// do.
+  /// Goes back to the start page. Asks first if unfinished steps or an unsaved sweep would be lost, as the next two do.
   void leave(Trainer& trainer);
   /// Opens a file or folder, as Trainer::open() does.
   void open(const std::filesystem::path& path, Trainer& trainer);
-  /// Ends the program. An exam that counts has to be ended before.
+  /// Ends the program. Called once more, it asks nothing; an exam that counts is handed in then.
   void quit(Trainer& trainer);
-  /// Ends the program as the button in the window's frame does. Called once more, it asks nothing; an exam that counts
-  /// is handed in then.
-  void close_window(Trainer& trainer);
   /// Returns whether the program is to end.
   bool quits() const { return quits_; }
   /// Closes the overlay without an answer, as Escape does.
@@ -180,7 +176,7 @@ private:
   void draw_toast(const Trainer& trainer);
   void show_on_desktop(const std::filesystem::path& path);
   void note_unopened();
-  void ask_to_leave(Trainer& trainer, const std::function<void(Trainer&)>& go_on);
+  void ask_to_leave(Trainer& trainer, bool ends, const std::function<void(Trainer&)>& go_on);
   /// Returns whether an exam that counts is being taken.
   static bool takes_exam(const Trainer& trainer);
   bool asked_before(double& last_s);
@@ -209,7 +205,7 @@ private:
   CtPanel ct_panel_;
   LookPanel look_panel_;
   Aside aside_ = Aside::none;
-  double asked_to_switch_s_ = -1000, asked_to_set_up_s_ = -1000, asked_to_close_s_ = -1000;
+  double asked_to_switch_s_ = -1000, asked_to_set_up_s_ = -1000, asked_to_quit_s_ = -1000;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;
@@ -224,7 +220,10 @@ private:
   std::vector<Overlay> pages_;
   bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
   bool quits_ = false;
-  std::function<void(Trainer&)> leaving_;  ///< what the person has chosen, and Overlay::leave asks about
+  struct {
+    bool ends = false;  ///< the program
+    std::function<void(Trainer&)> go_on;
+  } leaving_;  ///< what the person has chosen, and Overlay::leave asks about
   const ExamResult* closed_sheet_of_ = nullptr;
   double pictures_per_second_ = 0;
   /// Returns where a view is; empty if it is hidden.

@@ -168,7 +168,7 @@ void Screen::confirm(Trainer& trainer) {
       return trainer.begin_chosen();
     case Overlay::leave:
       pages_.clear();
-      return leaving_(trainer);
+      return leaving_.go_on(trainer);
     case Overlay::problem:
     case Overlay::help:
     case Overlay::about:
@@ -254,34 +254,30 @@ void Screen::leave(Trainer& trainer) {
       show_note("This exam counts: go on to its end, then it can be left");
     return;
   }
-  ask_to_leave(trainer, [](Trainer& left) { left.leave(); });
+  ask_to_leave(trainer, false, [](Trainer& left) { left.leave(); });
 }
 
 void Screen::open(const std::filesystem::path& path, Trainer& trainer) {
   // What cannot be opened is refused without a question.
   if (!trainer.attempt([&] { kind_of_material(path); })) return;
   if (takes_exam(trainer)) return trainer.open(path);
-  ask_to_leave(trainer, [path](Trainer& left) { left.open(path); });
+  ask_to_leave(trainer, false, [path](Trainer& left) { left.open(path); });
 }
 
 void Screen::quit(Trainer& trainer) {
-  if (takes_exam(trainer)) return show_note("This exam counts: go on to its end, then the window can be closed");
-  ask_to_leave(trainer, [this](Trainer&) { quits_ = true; });
-}
-
-void Screen::close_window(Trainer& trainer) {
-  if (takes_exam(trainer) && !asked_before(asked_to_close_s_))
-    show_note("This exam counts: close the window once more to end it here and hand it in");
-  else if (takes_exam(trainer) || std::ranges::find(pages_, Overlay::leave) != pages_.end())
+  if (takes_exam(trainer) && !asked_before(asked_to_quit_s_))
+    return show_note("This exam counts: do so once more to end it here and hand it in");
+  const bool asked = std::ranges::find(pages_, Overlay::leave) != pages_.end() && leaving_.ends;
+  if (takes_exam(trainer) || asked)
     quits_ = true;
   else
-    quit(trainer);
+    ask_to_leave(trainer, true, [this](Trainer&) { quits_ = true; });
 }
 
 /// Goes on as the person has chosen; asks first if something is lost by it.
-void Screen::ask_to_leave(Trainer& trainer, const std::function<void(Trainer&)>& go_on) {
+void Screen::ask_to_leave(Trainer& trainer, bool ends, const std::function<void(Trainer&)>& go_on) {
   if (!trainer.loses_by_leaving() && !trainer.loses_sweep()) return go_on(trainer);
-  leaving_ = go_on;
+  leaving_ = {ends, go_on};
   show_page(Overlay::leave);
 }
 
@@ -359,9 +355,9 @@ void Screen::draw_overlay(Trainer& trainer) {
     }
     case Overlay::leave:
       if (const std::optional<bool> leaves =
-              draw_leave(theme_, screen_, trainer.loses_by_leaving(), trainer.loses_sweep(), places_)) {
+              draw_leave(theme_, screen_, leaving_.ends, trainer.loses_by_leaving(), trainer.lost_sweep(), places_)) {
         pages_.pop_back();
-        if (*leaves) leaving_(trainer);
+        if (*leaves) leaving_.go_on(trainer);
       }
       break;
     case Overlay::volume:

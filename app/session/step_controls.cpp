@@ -18,6 +18,7 @@ bool StepControls::active(const Session& session) {
 void StepControls::see(const Session& session) {
   if (!session.latest_samples().empty()) acted_ = false;
   const auto step = active(session) ? std::optional(session.runner()->live().step) : std::nullopt;
+  if (step && session.runner()->live().counts_as_done) asks_again_ = false;
   if (session.attempt() == attempt_ && step == step_) return;
   attempt_ = session.attempt();
   step_ = step;

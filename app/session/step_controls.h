@@ -41,7 +41,7 @@ public:
   void go_on(Session& session);
   /// Takes back what go_on() has asked.
   void stay() { asks_again_ = false; }
-  /// Returns whether go_on() has asked once.
+  /// Returns whether go_on() has asked once, and the step would still not count as done.
   bool asks_again() const { return asks_again_; }
 
   /// Returns what the next hint costs, points; nothing if none is left.

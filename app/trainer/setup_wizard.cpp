@@ -65,7 +65,7 @@ void SetupWizard::keep_if_done() {
 void SetupWizard::mark(double now_s) {
   if (step_->view().done)
     go_on();
-  else
+  else if (tracker_state().condition != TrackerCondition::waiting)  // otherwise the first pose to come would be marked
     step_->mark(sensor_.tracker().clock_s(now_s));
 }
 

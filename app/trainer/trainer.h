@@ -128,7 +128,9 @@ public:
   /// Returns whether leaving throws something away: steps that are scored and not finished.
   bool loses_by_leaving() const;
   /// Returns whether leaving throws away a sweep: one that runs, is reconstructed, or whose volume is not saved.
-  bool loses_sweep() const;
+  bool loses_sweep() const { return !lost_sweep().empty(); }
+  /// Returns what becomes of that sweep, and how it is kept, as a sentence; empty if there is none.
+  std::string_view lost_sweep() const;
   /// Begins what is chosen on the start page, if nothing hinders it.
   void begin_chosen();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -203,7 +204,7 @@ void ClientSource::take(const Header& header, ByteView body, LiveBatch& batch) {
   if (!matrix || (sample.status == PoseStatus::ok && why_not_rigid(*matrix))) sample.status = PoseStatus::invalid;
   if (sample.status == PoseStatus::ok) {
     sample.patient_from_probe = pose_from_matrix(*matrix);
-    if (request_.ras) sample.patient_from_probe = lps_from_ras(sample.patient_from_probe);
+    if (leads_to_ras()) sample.patient_from_probe = lps_from_ras(sample.patient_from_probe);
   }
   batch.samples.push_back(sample);
 }
@@ -214,8 +215,14 @@ void ClientSource::take_image(const Header& header, ByteView content) {
     return request_.images->complain("an image of " + where_ + " " + *problem);
   auto& image = std::get<ReceivedImage>(parsed);
   image.time_s = time_of(header, arrival_s_);
-  if (request_.ras) image.frame_from_pixel = lps_from_ras(Pose{}).matrix() * image.frame_from_pixel;
+  if (leads_to_ras()) image.frame_from_pixel = lps_from_ras(Pose{}).matrix() * image.frame_from_pixel;
   request_.images->put(std::move(image));
+}
+
+bool ClientSource::leads_to_ras() const {
+  std::string name = followed_;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return request_.ras.value_or(name.ends_with("toras"));
 }
 
 double ClientSource::time_of(const Header& header, double arrival_s) {
@@ -274,7 +281,8 @@ ClientRequest client_request(const TrackerUri& uri) {
                        "'" + found->second + "' is neither '" + usual + "' nor '" + other + "'", "change it");
     return true;
   };
-  request.ras = one_of("frame", "lps", "ras");
+  const bool ras = one_of("frame", "lps", "ras");
+  if (uri.options.contains("frame")) request.ras = ras;
   request.sender_times = one_of("time", "arrival", "sender");
   return request;
 }

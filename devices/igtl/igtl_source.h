@@ -21,8 +21,9 @@ namespace insonate::igtl {
 struct ClientRequest {
   std::string host;
   std::uint16_t port = kDefaultPort;
-  std::string name;           ///< name of the transform; empty: the first that arrives
-  bool ras = false;           ///< transforms lead to RAS instead of LPS
+  std::string name;  ///< name of the transform; empty: the first that arrives
+  /// Whether transforms lead to RAS instead of LPS; if it is not said, those whose name ends with "ToRas" do.
+  std::optional<bool> ras;
   bool sender_times = false;  ///< steps between samples follow the senders' time stamps
   SenderClock clock;          ///< converts the sender's times to ours
   /// Where IMAGE messages go: those of the first name that arrives. Null: they are skipped. With images, a stream
@@ -58,6 +59,7 @@ private:
   bool wants(const Header& header);
   void take(const Header& header, ByteView body, LiveBatch& batch);
   void take_image(const Header& header, ByteView content);
+  bool leads_to_ras() const;
   double time_of(const Header& header, double arrival_s);
   std::string note(double now_s) const;
   [[noreturn]] void give_up(const std::string& problem);

@@ -93,9 +93,9 @@ std::string pictures_of(const StepResult& step, std::size_t index, const std::ve
   };
   std::string html;
   bool any = false;
-  const bool holds = step.value(Metric::longest_hold_s).has_value();
+  const bool holds = step.value(Metric::longest_hold_s).has_value(), held = step.outcome == StepOutcome::held;
   for (const Place& place :
-       {Place{ReportPicture::Kind::best, holds ? "While the view was held best" : "The learner's picture",
+       {Place{ReportPicture::Kind::best, held ? "While the view was held best" : "The learner's picture",
               holds ? "The view was not held" : "No picture", "The learner's picture"},
         Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
     const ReportPicture* shown = nullptr;

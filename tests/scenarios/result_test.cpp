@@ -178,6 +178,10 @@ TEST_CASE("the report shows the best picture of a step beside its reference view
   subject.pictures.push_back({1, ReportPicture::Kind::best, "best1"});
   html = report_html(one.result, one.trace, subject);
   CHECK(html.find("base64,YmVzdDE='") < html.find("base64,cmVm'"));
+  CHECK(html.find("While the view was held best") != std::string::npos);
+  ExamResult early = one.result;
+  early.steps[1].outcome = StepOutcome::went_on;
+  CHECK(report_html(early, one.trace, subject).find("held best") == std::string::npos);
   CHECK(count(html, "class='missing'") == 0);
 }
 

@@ -155,22 +155,23 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   return answer;
 }
 
-std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool steps, bool sweep,
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool ends, bool steps, std::string_view sweep,
                                std::map<std::string, Rect>& places) {
-  Rect sheet = begin_overlay(theme, screen, {theme.px(520), theme.px(steps && sweep ? 200 : 176)});
+  Rect sheet = begin_overlay(theme, screen, {theme.px(520), theme.px(steps && !sweep.empty() ? 200 : 176)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText,
-            steps ? "Leave these steps?" : "Leave without saving the sweep?");
+            ends    ? "End the program?"
+            : steps ? "Leave these steps?"
+                    : "Leave without saving the sweep?");
   sheet.take_top(theme.px(10));
   if (steps)
     draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
-              "They are not finished: nothing of them is scored or kept.");
-  if (sweep)
-    draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
-              "The volume of the last sweep is lost. To save it: stay, then U and S.");
+              "The steps are not finished: nothing of them is scored or kept.");
+  if (!sweep.empty()) draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted, sweep);
   Rect buttons = sheet.take_bottom(theme.px(38));
   std::optional<bool> answer;
   places["leave"] = buttons.take_right(theme.px(150));
-  if (button(theme, "leave", places["leave"], "Leave  (Enter)", ButtonKind::primary)) answer = true;
+  if (button(theme, "leave", places["leave"], ends ? "End  (Enter)" : "Leave  (Enter)", ButtonKind::primary))
+    answer = true;
   buttons.take_right(theme.px(8));
   places["stay"] = buttons.take_right(theme.px(150));
   if (button(theme, "stay", places["stay"], "Stay  (Esc)")) answer = false;

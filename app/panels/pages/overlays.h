@@ -38,10 +38,11 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
                              const std::string& learner, std::map<std::string, Rect>& places);
 
 /// Asks whether to leave what is lost by it. Returns the answer once there is one.
+/// @param ends   the program ends by it
 /// @param steps  steps are not finished
-/// @param sweep  a sweep is not saved
+/// @param sweep  what becomes of a sweep; empty if there is nothing to lose
 /// @param places  receives the buttons' rectangles
-std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool steps, bool sweep,
+std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool ends, bool steps, std::string_view sweep,
                                std::map<std::string, Rect>& places);
 
 }  // namespace insonate::ui

@@ -38,12 +38,21 @@ void paragraph(const Theme& theme, Rect& rest, ImU32 ink, std::string_view text)
   rest.take_top(theme.px(12));
 }
 
+/// Returns places for two buttons at the left of a row, as wide as their text needs if there is room.
+std::array<Rect, 2> two_buttons(const Theme& theme, Rect row) {
+  const float gap = theme.px(8), width = std::min(theme.text_px(220), (row.w - gap) / 2);
+  const Rect first = row.take_left(width);
+  row.take_left(gap);
+  return {first, row.take_left(width)};
+}
+
 /// Draws keys and what they do.
 void draw_keys(const Theme& theme, Rect& rest, std::initializer_list<std::array<const char*, 2>> keys) {
   for (const auto& [key, meaning] : keys) {
-    Rect line = rest.take_top(theme.px(28));
-    draw_text(line.take_left(theme.px(170)), theme.strong, colour::kText, key);
-    draw_text(line, theme.text, colour::kMuted, meaning);
+    const float left = theme.text_px(170), height = paragraph_height(theme.text, meaning, rest.w - left);
+    Rect line = rest.take_top(std::max(theme.px(28), height + theme.px(6)));
+    draw_text(Rect(line.take_left(left)).take_top(theme.px(20)), theme.strong, colour::kText, key);
+    draw_paragraph(line, theme.text, colour::kMuted, meaning);
   }
   rest.take_top(theme.px(12));
 }
@@ -76,11 +85,11 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
 
   Rect buttons = details.take_bottom(theme.px(34));
   details.take_bottom(theme.px(8));
-  places["browse"] = buttons.take_left(theme.text_px(190));
+  const auto [browse, check] = two_buttons(theme, buttons);
+  places["browse"] = browse;
+  places["check"] = check;
   if (button(theme, "browse", places["browse"], "Open a scenario\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::scenario};
-  buttons.take_left(theme.px(8));
-  places["check"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "check", places["check"], "Check a scenario\u2026", ButtonKind::normal, true,
              "For authors: shows what is wrong with a scenario file, again whenever it is saved"))
     answer = {StartAnswer::Kind::browse, Wanted::checked};
@@ -111,11 +120,11 @@ StartAnswer draw_patients(const Theme& theme, Rect rest, StartPage& page, std::m
             "a case. Drop it on the window, or open it here.");
   Rect buttons = rest.take_bottom(theme.px(34));
   rest.take_bottom(theme.px(10));
-  places["browse"] = buttons.take_left(theme.text_px(190));
+  const auto [browse, cases] = two_buttons(theme, buttons);
+  places["browse"] = browse;
+  places["cases"] = cases;
   if (button(theme, "browse", places["browse"], "Open a CT or case\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::patient};
-  buttons.take_left(theme.px(8));
-  places["cases"] = buttons.take_left(theme.text_px(190));
   if (button(theme, "cases", places["cases"], "List a folder of cases\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::cases};
   std::vector<ListRow> rows;
@@ -133,12 +142,12 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
             "Any moment of a run, with its picture, the probe's path and curves of how it moved. Nothing is scored.");
   Rect buttons = rest.take_bottom(theme.px(34));
   rest.take_bottom(theme.px(10));
-  places["browse"] = buttons.take_left(theme.text_px(190));
+  const auto [browse, beside] = two_buttons(theme, buttons);
+  places["browse"] = browse;
+  places["beside"] = beside;
   if (button(theme, "browse", places["browse"], "Open a recorded scan\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::recording};
-  buttons.take_left(theme.px(8));
   const bool expert = !page.expert().empty();
-  places["beside"] = buttons.take_left(theme.text_px(220));
   if (button(theme, "beside", places["beside"], "Beside the skilled scan",
              expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
@@ -192,10 +201,13 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
         File{"landmarks", "Landmarks\u2026", "those of the built-in patient", page.landmarks(), Wanted::landmarks},
         File{"drawing", "Drawing of the probe\u2026", "none: the probe's face is touched", page.drawing(),
              Wanted::drawing}}) {
-    Rect row = rest.take_top(theme.px(34));
+    const std::string file = each.file.empty() ? each.otherwise : each.file.string();
+    const float wide = theme.text_px(220), gap = theme.px(12), reset_wide = each.file.empty() ? 0 : theme.px(80 + 8);
+    const float height = paragraph_height(theme.text, file, rest.w - wide - gap - reset_wide);
+    Rect row = rest.take_top(std::max(theme.px(34), height));
     rest.take_top(theme.px(8));
-    places[each.id] = row.take_left(theme.text_px(220));
-    row.take_left(theme.px(12));
+    places[each.id] = row.take_left(wide);
+    row.take_left(gap);
     if (button(theme, each.id, places[each.id], each.text)) answer = {StartAnswer::Kind::browse, each.wanted};
     if (!each.file.empty()) {
       const std::string reset = std::string(each.id) + "_reset";
@@ -203,8 +215,6 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
       row.take_right(theme.px(8));
       if (button(theme, reset.c_str(), places[reset], "Reset")) answer = {StartAnswer::Kind::reset, each.wanted};
     }
-    const std::string file = each.file.empty() ? each.otherwise : each.file.string();
-    const float height = paragraph_height(theme.text, file, row.w);
     draw_paragraph({row.x, row.centre().y - height / 2, row.w, height}, theme.text,
                    each.file.empty() ? colour::kMuted : colour::kText, file);
   }
@@ -223,13 +233,16 @@ StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page, st
   const TaskText& text = text_of(page.task);
   draw_text(rest.take_top(theme.px(40)), theme.title, colour::kText, text.title);
   rest.take_top(theme.px(8));
-  Rect bottom = rest.take_bottom(theme.px(48));
+  const std::string why_not = page.why_not();
+  Rect bottom =
+      rest.take_bottom(std::max(theme.px(48), paragraph_height(theme.text, why_not, rest.w - theme.px(200 + 12))));
   rest.take_bottom(theme.px(12));
 
   StartAnswer answer;
-  const std::string why_not = page.why_not();
   page.makes_views = false;
   places["begin"] = bottom.take_right(theme.px(200));
+  places["begin"].y += (bottom.h - theme.px(48)) / 2;
+  places["begin"].h = theme.px(48);
   if (button(theme, "begin", places["begin"], std::string(text.begin) + "  (Enter)", ButtonKind::primary,
              why_not.empty()))
     answer.kind = StartAnswer::Kind::begin;

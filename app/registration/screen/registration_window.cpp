@@ -117,7 +117,7 @@ private:
     if (pictures_.draw(session_)) drawn_s_.push_back(now_s);
     while (!drawn_s_.empty() && drawn_s_.front() < now_s - 1) drawn_s_.pop_front();
     const bool changed = draw(), exposed = std::exchange(events_.exposed, false);
-    if (changed || exposed) present(window_, canvas_, exposed);
+    if (changed || exposed) presenter_.show(window_, canvas_, exposed);
     session_.hold(false);
     obey(std::exchange(events_.wish, {}));
     if (!options_.state_file.empty() && now_s - written_s_ > kStateEvery_s) {
@@ -164,6 +164,7 @@ private:
   RegistrationPictures& pictures_;
   ImGuiOwner imgui_;
   ui::Canvas canvas_;
+  Presenter presenter_;
   ui::Theme theme_;
   ui::RegistrationPage page_;
   Events events_;

@@ -93,6 +93,14 @@ TEST_CASE("a step that is not done is left at the second asking") {
   CHECK_FALSE(desk.controls.asks_again());
   CHECK(desk.session.runner()->result().steps[0].outcome == StepOutcome::went_on);
 
+  INFO("what is done after the first asking ends the question");
+  desk.go_on();
+  CHECK(desk.controls.asks_again());
+  desk.session.act({ActionKind::point, {0, 45}});
+  desk.pass();
+  CHECK_FALSE(desk.controls.asks_again());
+  CHECK(desk.step() == 1);
+
   INFO("one that is done is left at once");
   desk.session.act({ActionKind::point, {0, 45}});
   desk.pass();

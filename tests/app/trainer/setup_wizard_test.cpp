@@ -116,8 +116,10 @@ TEST_CASE("marks of the keyboard are taken back, and a file that cannot be writt
   const TemporaryFolder folder;
   const std::vector<SensorSample> samples = whole_setup();
   SetupWizard wizard = wizard_of(samples, none_yet(), folder.path / "lab.toml");
+  wizard.mark(0);  // before any pose has come
   wizard.update(0);
   wizard.update(0.1);
+  CHECK(wizard.view().part == 0);
   wizard.mark(0.1);
   wizard.update(0.15);
   CHECK(wizard.view().part == 1);

@@ -52,6 +52,17 @@ TEST_CASE("a client takes the first transform that comes, or the one that is nam
   CHECK(named.samples[0].patient_from_probe.rotation == glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1));
 }
 
+TEST_CASE("a transform whose name says that it leads to RAS does, unless the address says otherwise") {
+  const Socket listener = loopback_listener();
+  Client by_name(listener), as_told(listener, "/ProbeToRas?frame=lps");
+  RawPeer one = RawPeer::accepted_by(listener), other = RawPeer::accepted_by(listener);
+  for (RawPeer* peer : {&one, &other}) peer->send(make_transform("ProbeToRas", 0, at_x(7)));
+  REQUIRE(by_name.usable(1));
+  REQUIRE(as_told.usable(1));
+  CHECK(by_name.samples[0].patient_from_probe.translation == glm::dvec3(-7, -2, 3));
+  CHECK(as_told.samples[0].patient_from_probe == at_x(7));
+}
+
 TEST_CASE("a client reports what is wrong: a name that never comes, a status, another protocol") {
   const Socket listener = loopback_listener();
   {
