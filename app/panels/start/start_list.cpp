@@ -31,7 +31,7 @@ std::optional<std::size_t> draw_list(const Theme& theme, const char* id, const R
       fill(row, colour::kRaised, theme.px(4));
     Rect line = row.inset(theme.px(12), 0);
     // What the title leaves, but at least half of the row.
-    const float left = line.w - theme.px(12) - text_width(theme.text, rows[i].title);
+    const float left = line.w - theme.px(12) - text_width(theme.text, rows[i].title) - 2;
     const float about = std::min(text_width(theme.small_text, rows[i].about), std::max(left, line.w * 0.5f));
     draw_text(line.take_right(about + 1), theme.small_text, chosen == i ? colour::kText : colour::kMuted, rows[i].about,
               Align::right);
