@@ -407,8 +407,13 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (!repeated) session.freeze(!machine.frozen);
       break;
     case GLFW_KEY_G:
-      if (!repeated && session.strict()) screen.show_note("This exam counts: there is no guide in it");
-      if (!repeated && !session.strict()) trainer.guide().next(session);
+      if (repeated) break;
+      if (session.strict())
+        screen.show_note("This exam counts: there is no guide in it");
+      else if (!trainer.guide().can_lead(session))
+        screen.show_note("There is no view here that the guide could lead to");
+      else
+        trainer.guide().next(session);
       break;
     case GLFW_KEY_V:
       trainer.pictures().look_from_next();

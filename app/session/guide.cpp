@@ -64,8 +64,13 @@ const std::string* Guide::view_of_step(const Session& session) {
   return &runner->scenario().steps[runner->live().step].view;
 }
 
+bool Guide::can_lead(const Session& session) const {
+  const std::string* of_step = view_of_step(session);
+  return of_step ? !of_step->empty() : !names(session.loaded_case()).empty();
+}
+
 void Guide::next(const Session& session) {
-  if (session.strict()) return;
+  if (session.strict() || !can_lead(session)) return;
   if (view_of_step(session)) {
     in_run_ = !in_run_;
     return;

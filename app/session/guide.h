@@ -25,6 +25,8 @@ public:
   /// While a scenario runs: turns the guide on or off. Otherwise: selects the patient's next view, first those of the
   /// scenario's steps, then the case's, then those authored since. After the last view the guide is off.
   void next(const Session& session);
+  /// Returns whether there is a view to lead to: some steps ask for none.
+  bool can_lead(const Session& session) const;
 
   /// Turns the guide on or off for the scenarios that follow.
   void turn(bool on) {

@@ -127,7 +127,8 @@ bool OpenDialog::draw_entries(const Theme& theme, const Rect& where, std::map<st
   if (!clicked) return false;
   const FolderEntry entry = list_.entries[*clicked];
   if (entry.is_folder) {
-    go_to(entry.path);
+    // The second click of a double click falls on whatever lies there in the folder that the first one entered.
+    if (ImGui::GetIO().MouseClickedLastCount[0] < 2) go_to(entry.path);
     return false;
   }
   put(entry.path);

@@ -11,6 +11,7 @@
 #include "devices/mouse/mouse_tracker.h"
 #include "scenarios/guidance.h"
 #include "tests/scenarios/tiny_case.h"
+#include "tests/scenarios/tiny_exam.h"
 
 using namespace insonate;
 
@@ -211,6 +212,25 @@ TEST_CASE("while a scenario is practised the guide leads to the view of the step
   INFO("what is chosen without a scenario is another thing");
   session.practise();
   session.advance(0.3);
+  CHECK_FALSE(guide.now(session));
+}
+
+TEST_CASE("in a step that asks for no view the guide cannot lead, and stays off for the next") {
+  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
+  loaded_case->scenario = exam_of(
+      step("free_scan", "") +
+      step("find_view", "view = \"ball\"\n" + std::string("hold_s = 1\n[step.tolerance]\nplane_distance_mm = 8")) +
+      "[[criterion]]\nmetric = \"time_s\"\nfull = 10\nzero = 100\n");
+  Session session = by_hand(loaded_case);
+  session.advance(0);
+  session.advance(0.1);
+  Guide guide;
+  CHECK_FALSE(guide.can_lead(session));
+  guide.next(session);
+  session.act({ActionKind::go_on});
+  session.advance(0.2);
+  REQUIRE(session.runner()->live().step == 1);
+  CHECK(guide.can_lead(session));
   CHECK_FALSE(guide.now(session));
 }
 

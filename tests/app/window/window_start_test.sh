@@ -160,13 +160,19 @@ click_on tracker_mouse:
 await "the mouse is chosen again" is start_tracker mouse:
 
 echo "a folder is gone into, and what is in it is opened by clicks"
-mkdir -p "$work/scans"
-water "$work/scans/water.mha"
+mkdir -p "$work/scans/of_water/deeper"
+water "$work/scans/of_water/water.mha"
 xdotool key ctrl+o
 await "the dialog is there" is overlay open
 xdotool type "$work/scans"
 xdotool key Return
-await "the folder's file is listed" is_not entry_water.mha_x ""
+await "the folder in it is listed" is_not entry_of_water_x ""
+pointer_to "$(middle_x entry_of_water)" "$(middle_y entry_of_water)"
+sleep 0.5
+xdotool click --repeat 2 --delay 60 1
+await "a double click goes into it, and no deeper" is_not entry_water.mha_x ""
+sleep 0.5
+is_not entry_water.mha_x "" || fail "the second click has gone deeper"
 click_on entry_water.mha
 sleep 0.5
 click_on open_path
