@@ -52,7 +52,8 @@ struct Field {
     std::size_t stride = 1;
     for (int other = 0; other < axis; ++other) stride *= std::size_t(size[other]);
     tbb::parallel_for(tbb::blocked_range<int>(0, size[b]), [&](const auto& range) {
-      std::vector<float> line(std::size_t(size[axis]));
+      const auto length = std::size_t(size[axis]);
+      std::vector<float> line(length);
       for (int j = range.begin(); j != range.end(); ++j)
         for (int i = 0; i < size[a]; ++i) {
           glm::ivec3 start(0);
