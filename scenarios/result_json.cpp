@@ -13,6 +13,7 @@
 
 #include "scenarios/json_problem.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -268,6 +269,9 @@ ExamResult result_from_json(std::string_view text, const std::string& name) {
     ExamResult result;
     Reader reader{json};
     each_field(reader, result);
+    constexpr double kMostTime_s = 1e9;  // far more than any scan, and its milliseconds are whole numbers
+    if (!(result.motion.time_s >= 0 && result.motion.time_s <= kMostTime_s))
+      throw std::runtime_error(formatted("a scan of %g s", result.motion.time_s));
     return result;
   } catch (const Json::exception& error) {
     refuse(name, json_problem(error, text));

@@ -68,6 +68,10 @@ TEST_CASE("a result keeps how it came about, and one that does not say reads as 
   std::string other = to_json(result);
   other.replace(other.find("\"recording\""), 11, "\"cramming\"");
   CHECK_THROWS_AS(result_from_json(other, "x"), InputError);
+  for (const double never : {-1.0, 1e30}) {  // milliseconds since 1970 could not hold its beginning
+    result.motion.time_s = never;
+    CHECK_THROWS_WITH(result_from_json(to_json(result), "x"), Catch::Contains("not a result of Insonate: a scan of"));
+  }
 }
 
 TEST_CASE("a result of another scoring version reads, and says so") {
