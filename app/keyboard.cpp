@@ -411,7 +411,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (session.strict())
         screen.show_note("This exam counts: there is no guide in it");
       else if (!trainer.guide().can_lead(session))
-        screen.show_note("There is no view here that the guide could lead to");
+        screen.show_note("The guide leads to views, and this step asks for none");
       else
         trainer.guide().next(session);
       break;
