@@ -229,6 +229,8 @@ void Screen::step_on(Trainer& trainer) {
 
 void Screen::toggle_volume(const Trainer& trainer) {
   if (takes_exam(trainer)) return show_note("This exam counts: there are no sweeps in it");
+  if (!trainer.swept() && trainer.sweep().reconstructing())
+    return show_note("The swept volume is being made, and is shown with U when it is");
   if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
   toggle(Overlay::volume);
 }

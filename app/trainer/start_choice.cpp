@@ -24,15 +24,22 @@ std::string StartPage::why_no_learner() const {
   return "Correct on the right who is learning: " + why_no_learner_id(refused_learner_) + ".";
 }
 
+std::int64_t StartPage::taken_in(const OfferedScenario& exam) const {
+  if (learner() == kNobodyInParticular) return 0;
+  for (const AttemptSummary& attempt : attempts_)
+    if (attempt.learner == learner() && attempt.scenario_digest == exam.digest &&
+        is_of(attempt.mode, AttemptMode::exam))
+      return attempt.number;
+  return 0;
+}
+
 std::string StartPage::why_no_exam() const {
   if (!scenario) return "Choose an exam.";
   if (database_.empty()) return "There is no database to keep the attempt in: start the trainer with --results.";
   if (learner() == kNobodyInParticular) return "An exam is somebody's: say on the right who is learning.";
-  for (const AttemptSummary& attempt : attempts_)
-    if (attempt.learner == learner() && attempt.scenario_digest == scenarios_[*scenario].digest &&
-        is_of(attempt.mode, AttemptMode::exam))
-      return learner() + " has taken this exam already, as attempt " + std::to_string(attempt.number) +
-             ". Choose another, or practise.";
+  if (const std::int64_t number = taken_in(scenarios_[*scenario]))
+    return learner() + " has taken this exam already, as attempt " + std::to_string(number) +
+           ". Choose another, or practise.";
   return "";
 }
 

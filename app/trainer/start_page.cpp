@@ -18,6 +18,7 @@
 #include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/toml_table.h"
+#include "sim/volume/case.h"
 
 namespace insonate {
 namespace {
@@ -52,6 +53,15 @@ std::vector<fs::path> cases_in(const fs::path& folder) {
   }
   std::sort(cases.begin(), cases.end());
   return cases;
+}
+
+/// Returns the name of a case, or its folder's if case.toml cannot be read: opening the case says why.
+std::string name_of_case(const fs::path& folder) {
+  try {
+    return read_case_name(folder);
+  } catch (const InputError&) {
+    return folder.filename().string();
+  }
 }
 
 /// Returns the smallest seed that draws this variant.
@@ -222,7 +232,7 @@ void StartPage::list_cases() {
   std::vector<OfferedPatient> cases;
   for (const fs::path& folder : {fs::current_path(error), case_folder_})
     for (const fs::path& found : cases_in(folder)) {
-      OfferedPatient offered{found.filename().string(), "Case in " + folder.string(), CaseSource{}, folder};
+      OfferedPatient offered{"", "Case " + found.filename().string() + " in " + folder.string(), CaseSource{}, folder};
       offered.source.case_folder = found;
       cases.push_back(std::move(offered));
     }
@@ -233,6 +243,7 @@ void StartPage::list_cases() {
   std::vector<OfferedPatient> before;
   std::copy_if(patients_.begin(), patients_.end(), std::back_inserter(before), listed);
   if (std::equal(before.begin(), before.end(), cases.begin(), cases.end(), same)) return;
+  for (OfferedPatient& offered : cases) offered.name = name_of_case(offered.source.case_folder);
   const std::optional<OfferedPatient> chosen =
       patient < patients_.size() ? std::optional(patients_[patient]) : std::nullopt;
   std::erase_if(patients_, listed);
@@ -385,8 +396,10 @@ void StartPage::add(const fs::path& path) {
       return;
     case Material::case_folder:
     case Material::ct: {
-      OfferedPatient offered{name, material == Material::ct ? "CT" : "Case", CaseSource{}, fs::path()};
-      (material == Material::ct ? offered.source.ct : offered.source.case_folder) = path;
+      const bool is_ct = material == Material::ct;
+      OfferedPatient offered{is_ct ? name : name_of_case(path), is_ct ? "CT" : "Case " + name, CaseSource{},
+                             fs::path()};
+      (is_ct ? offered.source.ct : offered.source.case_folder) = path;
       offered.about += " in " + path.parent_path().string();
       offered.opened = true;
       patients_.push_back(std::move(offered));

@@ -101,6 +101,8 @@ public:
   const std::vector<OfferedRun>& runs() const { return runs_; }
   const std::vector<OfferedTracker>& trackers() const { return trackers_; }
   const std::vector<std::string>& learners() const { return learners_; }
+  /// Returns the number of the attempt in which the chosen learner took this exam; 0 if there is none.
+  std::int64_t taken_in(const OfferedScenario& exam) const;
   /// Returns the attempts of the chosen learner, of all if nobody is chosen, newest first.
   std::vector<AttemptSummary> attempts() const;
   /// Returns the database of results; empty if there is none.

@@ -82,6 +82,7 @@ std::vector<SweepFlaw> turns(const std::vector<SweepStep>& steps) {
 std::string SweepFlaw::words() const {
   switch (kind) {
     case Kind::too_fast:
+      if (formatted("%.1f", begin_s) == formatted("%.1f", end_s)) return formatted("too fast at %.1f s", begin_s);
       return formatted("too fast between %.1f s and %.1f s", begin_s, end_s);
     case Kind::gap:
       return formatted("gap of %.1f mm at %.0f mm", size_mm, at_mm);

@@ -41,8 +41,8 @@ struct SweepFlaw {
   double at_mm = 0;               ///< where it begins, along the sweep
   double size_mm = 0;             ///< the largest spacing in it; turned back: how far
 
-  /// Returns the flaw in words: "too fast between 3.2 s and 4.0 s", "gap of 6.0 mm at 41 mm", "turned back by 4 mm
-  /// between 5.1 s and 5.9 s".
+  /// Returns the flaw in words: "too fast between 3.2 s and 4.0 s", "too fast at 3.2 s", "gap of 6.0 mm at 41 mm",
+  /// "turned back by 4 mm between 5.1 s and 5.9 s".
   std::string words() const;
 };
 

@@ -250,6 +250,11 @@ const ReferenceView* Case::find_view(std::string_view view) const {
   return find_named(views, view);
 }
 
+std::string read_case_name(const fs::path& folder) {
+  const fs::path file = folder / kTableFile;
+  return read_table(TomlDocument(file.string(), read_file(file, kLargestTable)).root()).name;
+}
+
 Case read_case(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))

@@ -81,6 +81,9 @@ struct Case {
 /// lacks; it is accepted.
 Case read_case(const std::filesystem::path& folder);
 
+/// Returns the name of a case without reading its volumes. Throws InputError as read_case() does for case.toml.
+std::string read_case_name(const std::filesystem::path& folder);
+
 /// Throws the InputError that write_case() would throw for the folder alone: something that is not a case is in the
 /// way, or the place cannot be written to. Call it before building a case takes long.
 void check_case_can_be_written(const std::filesystem::path& folder);

@@ -79,6 +79,14 @@ TEST_CASE("a part that is too fast is named by its times") {
   CHECK(quality.verdict() == "Uneven: 61 pictures over 55 mm in 6.0 s, up to 1.7 mm apart.");
 }
 
+TEST_CASE("a moment that is too fast has one time") {
+  Hand hand;
+  hand.go(32, 0.8, 0.01);
+  hand.go(1, 1.7, 0.01);
+  hand.go(20, 0.8, 0.01);
+  CHECK(words(hand.quality()) == std::vector<std::string>{"too fast at 0.3 s"});
+}
+
 TEST_CASE("missing pictures are a gap, named by where it lies") {
   Hand hand;
   hand.go(50, 0.8);

@@ -47,12 +47,15 @@ void draw_bars(const Theme& theme, const Rect& where, const CriterionTrend& tren
   }
 }
 
+/// Returns how much of a row its criterion's name takes: wrapped, because it says what lost the points.
+float name_height(const Theme& theme, const CriterionTrend& trend, float width) {
+  return std::max(theme.px(20), paragraph_height(theme.text, info(trend.metric).words, width));
+}
+
 void draw_row(const Theme& theme, const Rect& row, const CriterionTrend& trend, std::size_t attempts) {
   const Columns columns = columns_of(theme, row, attempts);
   Rect name = columns.name.inset(0, theme.px(3));
-  const std::string_view words = info(trend.metric).words;
-  if (text_width(theme.text, words) > name.w) draw_tooltip(theme, name, std::string(words));
-  draw_text(name.take_top(theme.px(20)), theme.text, colour::kText, words);
+  draw_paragraph(name.take_top(name_height(theme, trend, name.w)), theme.text, colour::kText, info(trend.metric).words);
   const std::string part =
       trend.step ? std::to_string(*trend.step + 1) + ". " + trend.step_title : std::string("Whole exam");
   draw_text(name.take_top(theme.px(18)), theme.small_text, colour::kMuted, part + (trend.critical ? ", critical" : ""));
@@ -75,12 +78,20 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
     return draw_text(where.take_top(theme.px(24)), theme.text, colour::kMuted,
                      "Reading " + std::to_string(trend.unread) + " scores\u2026");
   if (trend.criteria.empty()) return;
-  const float height = theme.px(kRow) * float(trend.criteria.size());
-  const float bar = height > where.h - theme.px(24) ? theme.px(14) : 0;
-  Rect head = where.take_top(theme.px(20));
-  head.take_right(bar);
   std::size_t attempts = 0;
   for (const CriterionTrend& criterion : trend.criteria) attempts = std::max(attempts, criterion.shares.size());
+  const auto row_height = [&](const CriterionTrend& criterion, float width) {
+    const float name = columns_of(theme, {0, 0, width, 0}, attempts).name.w;
+    return theme.px(kRow - 20) + name_height(theme, criterion, name);
+  };
+  const auto height_of_rows = [&](float width) {
+    float height = 0;
+    for (const CriterionTrend& criterion : trend.criteria) height += row_height(criterion, width);
+    return height;
+  };
+  const float bar = height_of_rows(where.w) > where.h - theme.px(24) ? theme.px(14) : 0;
+  Rect head = where.take_top(theme.px(20));
+  head.take_right(bar);
   const Columns columns = columns_of(theme, head, attempts);
   draw_text(columns.name, theme.small_text, colour::kFaint, "Most lost first");
   draw_text(columns.bars, theme.small_text, colour::kFaint, "Earned");
@@ -91,10 +102,10 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
               "Hints cost " + short_number(trend.lost_to_hints) + " points per attempt.");
     where.take_bottom(theme.px(4));
   }
-  const ScrollArea area(theme, "criteria", whole_rows(where, theme.px(kRow)), height);
+  const ScrollArea area(theme, "criteria", where, height_of_rows(head.w));
   Rect rest = area.content();
   for (const CriterionTrend& criterion : trend.criteria) {
-    const Rect row = rest.take_top(theme.px(kRow));
+    const Rect row = rest.take_top(row_height(criterion, rest.w));
     if (!area.shows(row)) continue;
     fill({row.x, row.y, row.w, 1}, colour::kLine);
     draw_row(theme, row, criterion, attempts);

@@ -280,7 +280,7 @@ void LearnersPanel::draw_attempts(const Theme& theme, const Rect& panel, Learner
 LearnersAnswer LearnersPanel::draw_attempt(const Theme& theme, const Rect& panel, LearnersPage& page, const Run& run) {
   const AttemptSummary* attempt = page.attempt();
   const std::string title =
-      attempt ? "Attempt " + std::to_string(attempt->number) + " of " + attempt->learner : "Comments";
+      attempt ? "Attempt no. " + std::to_string(attempt->number) + ", by " + attempt->learner : "Comments";
   const Rect rest = begin_panel(theme, panel, title);
   switch (attempt_.draw(theme, rest, page, run, *places_)) {
     case AttemptRequest::none:

@@ -60,7 +60,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
       light = colour::kAmber;
     char rate[32];
     std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
-    if (state.rate_hz > 0) condition += rate;
+    if (state.rate_hz > 0 && state.last_status == PoseStatus::ok) condition += rate;
     const bool calm = !session.lost_for_s() && state.rejected == Rejection::none;
     if (const auto& answer = session.pose_estimate(); answer && calm)
       condition += ", " + std::string(to_string(answer->how));

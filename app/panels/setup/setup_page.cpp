@@ -118,7 +118,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
   bool close = false;
   const auto next = [&](const char* id, float width, std::string_view text, ButtonKind kind = ButtonKind::normal,
                         bool enabled = true) {
-    const Rect place = buttons.take_right(theme.px(width));
+    const Rect place = buttons.take_right(theme.text_px(width));
     buttons.take_right(theme.px(10));
     places[std::string("setup_") + id] = place;
     return button(theme, id, place, text, kind, enabled);

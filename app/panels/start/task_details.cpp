@@ -72,8 +72,12 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   Rect details = rest.take_bottom(std::min(height + theme.px(34 + 8 + 4), rest.h * 0.5f));
   rest.take_bottom(theme.px(12));
   std::vector<ListRow> rows;
-  for (std::size_t i = 0; i < page.scenarios().size(); ++i)
-    rows.push_back({"scenario_" + std::to_string(i), page.scenarios()[i].title, facts_of(page.scenarios()[i])});
+  for (std::size_t i = 0; i < page.scenarios().size(); ++i) {
+    const OfferedScenario& offered = page.scenarios()[i];
+    const bool taken = !practice && page.taken_in(offered) != 0;
+    rows.push_back(
+        {"scenario_" + std::to_string(i), offered.title, taken ? "taken by " + page.learner() : facts_of(offered)});
+  }
   const std::size_t free = rows.size();
   if (practice) rows.push_back({"scenario_free", "Free practice", "no steps"});
   const std::size_t chosen = page.scenario.value_or(free);

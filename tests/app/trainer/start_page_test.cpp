@@ -177,10 +177,13 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   CHECK(page.why_not().find("who is learning") != std::string::npos);
   page.choose_learner("L-07");
   CHECK(page.why_not().find("as attempt 1") != std::string::npos);
+  CHECK(page.taken_in(page.scenarios()[*page.scenario]) == 1);
+  CHECK(page.taken_in(page.scenarios()[index_of(page, "Aorta")]) == 0);
   CHECK(page.attempts().size() == 1);
   CHECK(page.tasks().back() == Task::learners);
   page.choose_learner("L-08");
   CHECK(page.why_not() == "");
+  CHECK(page.taken_in(page.scenarios()[*page.scenario]) == 0);
   CHECK(page.attempts().empty());
   CHECK(page.chosen().options.mode == Mode::exam);
   CHECK(page.chosen().options.learner == "L-08");
@@ -214,7 +217,10 @@ TEST_CASE("the person's own folder of cases is listed in place of the one before
   };
   const std::size_t built_in = page.patients().size();
   page.list_cases_in(folder / "mine");
-  CHECK(listed("liver") == 1);
+  CHECK(listed("liver") == 1);  // its case.toml is incomplete
+  write_file(folder / "mine/kidney/case.toml", "format = 1\nname = \"Patient 7\"\nct = \"ct.nrrd\"\n");
+  page.list_cases_in(folder / "mine");
+  CHECK(listed("Patient 7") == 1);
   page.list_cases_in(folder / "other");
   CHECK(listed("liver") == 0);
   CHECK(listed("spleen") == 1);
