@@ -59,6 +59,7 @@ struct StepResult {
   double longest_hold_s = 0;
   std::vector<std::pair<Metric, double>> values;           ///< other values measured by this kind of step
   std::vector<std::pair<std::string, std::string>> facts;  ///< other information for the reader: "answer", "a stone"
+  static constexpr const char* kMeasured = "measured";     ///< the fact that is the learner's own value: "188 ml"
   MotionValues motion;
   std::vector<CriterionScore> criteria;
   int hints_taken = 0;

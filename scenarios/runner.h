@@ -38,8 +38,9 @@ struct LiveExam {
   bool counts_as_done = false;     ///< ending the step now would count as done
   std::vector<std::string> hints;  ///< hints taken in this step
   std::size_t hints_left = 0;
-  double points = 0;           ///< of the steps done
-  double points_possible = 0;  ///< of the steps done
+  std::vector<std::string> measured;  ///< what steps that ended have measured: "Three lengths: 188 ml"
+  double points = 0;                  ///< of the steps done
+  double points_possible = 0;         ///< of the steps done
 };
 
 /// One point of the curves in a report, recorded about 10 times per second.

@@ -1,26 +1,49 @@
 #include "app/recording/best_frames.h"
 
 #include <optional>
+#include <utility>
 
+#include "app/recording/annotated_picture.h"
 #include "app/recording/results.h"
 
 namespace insonate {
+namespace {
 
-bool BestFrames::due(const Session& session) const {
+/// Returns what the step asked for and the learner has placed in the frozen picture.
+std::vector<Action> placed_in(const std::optional<Pose>& picture, const PictureTools& tools) {
+  std::vector<Action> placed;
+  if (!picture || tools.free_choice()) return placed;
+  const auto add = [&](const Annotation& annotation) {
+    if (annotation.patient_from_probe == *picture) placed.push_back(annotation.action);
+  };
+  for (const auto& [slot, annotation] : tools.annotations().measured()) add(annotation);
+  if (tools.annotations().point()) add(*tools.annotations().point());
+  for (const auto& [name, annotation] : tools.annotations().labels()) add(annotation);
+  return placed;
+}
+
+}  // namespace
+
+bool BestFrames::due(const Session& session, const PictureTools& tools) const {
   if (!session.runner()) return false;
   constexpr double kStep = 0.1;  // of the hold
   const LiveExam& live = session.runner()->live();
   if (session.attempt() != attempt_ || live.step != step_) return live.hold_share > 0;
-  return live.hold_share > share_ + kStep;
+  if (live.hold_share > share_ + kStep) return true;
+  const std::vector<Action> placed = placed_in(session.frozen_picture(), tools);
+  return !placed.empty() && placed != placed_;
 }
 
-void BestFrames::keep(const Session& session, const Pictures& pictures) {
+void BestFrames::keep(const Session& session, const PictureTools& tools, const Pictures& pictures) {
   if (!pictures.ultrasound()) return;
   const LiveExam& live = session.runner()->live();
   forget_older(session);
   step_ = live.step;
   share_ = live.hold_share;
-  frames_[live.step] = mirrored(read_back(*pictures.ultrasound()));
+  Image<Rgba8> frame = mirrored(read_back(*pictures.ultrasound()));
+  placed_ = placed_in(session.frozen_picture(), tools);
+  draw_annotations(frame, pictures.geometry(), placed_);
+  frames_[live.step] = std::move(frame);
 }
 
 void BestFrames::forget_older(const Session& session) {

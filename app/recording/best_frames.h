@@ -4,20 +4,23 @@
 #include <vector>
 
 #include "app/pictures/pictures.h"
+#include "app/session/picture_tools.h"
 #include "app/session/session.h"
 #include "scenarios/report/report.h"
 #include "sim/core/image.h"
 
 namespace insonate {
 
-/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best.
+/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a step
+/// that measures, points or names it keeps the last frozen picture that was worked in, with what was placed in it.
 class BestFrames {
 public:
-  /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for: draw,
-  /// then keep().
-  bool due(const Session& session) const;
+  /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for, or
+  /// something else is placed in it: draw, then keep().
+  /// @param tools  must have seen the session's current state
+  bool due(const Session& session, const PictureTools& tools) const;
   /// Keeps the picture that was drawn last, marker on the left.
-  void keep(const Session& session, const Pictures& pictures);
+  void keep(const Session& session, const PictureTools& tools, const Pictures& pictures);
   /// Forgets frames of attempts before the session's.
   void forget_older(const Session& session);
 
@@ -31,6 +34,7 @@ private:
   int attempt_ = 0;                             ///< whose frames these are; 0 for none
   std::size_t step_ = 0;                        ///< of the newest
   double share_ = 0;                            ///< of the hold, when it was kept
+  std::vector<Action> placed_;                  ///< in the newest
 };
 
 }  // namespace insonate

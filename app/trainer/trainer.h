@@ -139,8 +139,8 @@ public:
   /// Draws the pictures of the session or replay, and publishes them to OpenIGTLink clients and the recorder.
   void draw(const PictureSizes& sizes, const Effort& effort = {});
   /// Returns whether the picture is better than the best frame so far: draw it, then keep it.
-  bool best_frame_due() const { return scan() && scan()->best_frames.due(*session()); }
-  void keep_best_frame() { scan()->best_frames.keep(*session(), pictures_); }
+  bool best_frame_due() const { return scan() && scan()->best_frames.due(*session(), picture_tools()); }
+  void keep_best_frame() { scan()->best_frames.keep(*session(), picture_tools(), pictures_); }
   /// When an exam has ended, stores the attempt and writes its report and score, once: without a window to
   /// options().out, with one to a folder of its own in there (attempt_folder()), because a person tries again.
   void write_results_if_due();

@@ -38,6 +38,17 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
+/// Returns a sentence in which no line breaks between a number and its unit.
+std::string unbroken(std::string_view sentence) {
+  std::string html;
+  char before = 0;
+  for (const char c : escaped(sentence)) {
+    html += c == ' ' && before >= '0' && before <= '9' ? std::string("&nbsp;") : std::string(1, c);
+    before = c;
+  }
+  return html;
+}
+
 std::string outcome_chip(StepOutcome outcome) {
   return "<span class='outcome " + std::string(is_done(outcome) ? "good" : "bad") + "'>" + in_words(outcome) +
          "</span>";
@@ -53,7 +64,7 @@ std::string row(const CriterionScore& m) {
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
   std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(title_of(m.metric)) + "</b>";
   if (m.critical) html += " <span class='critical'>critical</span>";
-  html += "<small>" + escaped(m.why) + "</small></td>";
+  html += "<small>" + unbroken(m.why) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
   html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
   html +=
@@ -126,6 +137,15 @@ std::string judged_in_words(const StepResult& step) {
          " from " + from + " to " + fixed(*step.judged_to_s, 1) + " s.";
 }
 
+/// Returns what the step found besides values, a line each.
+std::string facts_of(const StepResult& step) {
+  if (step.facts.empty()) return "";
+  std::string rows;
+  for (const auto& [what, fact] : step.facts)
+    rows += "<tr><td>" + escaped(what) + "</td><td>" + unbroken(fact) + "</td></tr>\n";
+  return "<table class='facts'>" + rows + "</table>";
+}
+
 std::string section(const StepResult& step, std::size_t index, const std::vector<ReportPicture>& pictures) {
   std::string html =
       "<section><h2>" + std::to_string(index + 1) + ". " + escaped(step.title) + outcome_chip(step.outcome) + "</h2>";
@@ -139,9 +159,7 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
     html += "<p class='quiet'>Hints taken: " + std::to_string(step.hints_taken) + ", for " +
             short_number(step.lost_to_hints()) + " points.</p>";
   if (step.guide_times > 0) html += "<p class='quiet'>" + guide_in_words(step) + "</p>";
-  for (const auto& [what, fact] : step.facts)
-    html += "<p class='quiet'>" + escaped(what) + ": " + escaped(fact) + "</p>";
-  return html + table(step.criteria) + pictures_of(step, index, pictures) + "</section>\n";
+  return html + facts_of(step) + table(step.criteria) + pictures_of(step, index, pictures) + "</section>\n";
 }
 
 /// One line per step, as a summary for the examiner.
@@ -179,7 +197,7 @@ std::string verdict(const ExamResult& result) {
             std::to_string(result.steps.size()) + " steps.</p>";
   if (!result.reasons.empty()) {
     html += "<ul>";
-    for (const std::string& reason : result.reasons) html += "<li>" + escaped(reason) + "</li>";
+    for (const std::string& reason : result.reasons) html += "<li>" + unbroken(reason) + "</li>";
     html += "</ul>";
   }
   return html + overview(result) + "</div>\n";

@@ -105,7 +105,7 @@ public:
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);
     const double measured = asked_.value(placed);
-    result.facts.emplace_back("measured", with_unit(measured));
+    result.facts.emplace_back(StepResult::kMeasured, with_unit(measured));
     if (!truth_.value) return;
     result.facts.emplace_back("truth", with_unit(*truth_.value) + ", " + asked_.walls);
     if (asked_.tool == Measure::Tool::distance)

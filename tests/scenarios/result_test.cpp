@@ -103,10 +103,25 @@ TEST_CASE("JSON that is not a result is refused") {
   spoiled("\"percent\": ", "\"percent\": \"\", \"x\": ");
 }
 
+/// Returns the page with blanks at which a line may break.
+std::string breakable(std::string html) {
+  for (std::size_t at = 0; (at = html.find("&nbsp;", at)) != std::string::npos;) html.replace(at, 6, " ");
+  return html;
+}
+
+TEST_CASE("no line of the report breaks between a number and its unit") {
+  const Scan one = scan(70);
+  const std::string html = report_html(one.result, one.trace);
+  const std::string& why = one.result.steps[0].criteria[0].why;
+  const std::size_t blank = why.find(" mm");
+  REQUIRE(blank != std::string::npos);
+  CHECK(html.find(why.substr(0, blank) + "&nbsp;mm") != std::string::npos);
+}
+
 TEST_CASE("the report names the verdict, its reasons, and each criterion with value, limits, points and why") {
   for (const double offset : {0.0, 70.0}) {
     const Scan one = scan(offset);
-    const std::string html = report_html(one.result, one.trace);
+    const std::string html = breakable(report_html(one.result, one.trace));
     CHECK(html.find(one.result.passed ? ">Passed<" : ">Not passed<") != std::string::npos);
     for (const std::string& reason : one.result.reasons) CHECK(html.find(reason) != std::string::npos);
     for (const StepResult& step : one.result.steps)

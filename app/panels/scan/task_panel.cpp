@@ -97,11 +97,20 @@ void draw_turns(const Theme& theme, Rect where, Session& session, StepControls& 
     controls.turn_to(session, turns[*clicked].step);
 }
 
+/// What earlier steps have measured, which a question may be about.
+std::string measured_before(const Session& session) {
+  std::string words;
+  for (const std::string& measured : session.runner()->live().measured)
+    words += (words.empty() ? "  You measured: " : "; ") + measured;
+  return words;
+}
+
 /// What to do now, where the instruction does not say it.
 std::string prompt(const Session& session, const PictureTools& tools, const StepControls& controls, const Step& step) {
   if (const AnswerInput* question = controls.question())
-    return question->is_typed() ? "Type, then answer. The first answer counts."
-                                : "Choose, then answer. The first answer counts.";
+    return (question->is_typed() ? "Type, then answer. The first answer counts."
+                                 : "Choose, then answer. The first answer counts.") +
+           measured_before(session);
   if (std::string own = step.task->words().prompt; !own.empty()) return own;
   if (!PictureTools::ready(session)) return "Freeze the picture (Space) first.";
   return tool_prompt(tools) + ". Drag moves what is placed, Backspace takes it back.";

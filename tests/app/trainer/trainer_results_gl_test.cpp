@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/session/plane_on_screen.h"
 #include "app/trainer/trainer.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
@@ -85,6 +86,57 @@ TEST_CASE("the trainer keeps attempts in the database it was given, and of the u
     REQUIRE(trainer.problems().size() == 1);
     CHECK(trainer.problems().front().find("results.db") != std::string::npos);
   }
+}
+
+TEST_CASE("the picture that the report shows of a measurement has the calipers as they were placed last") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  folder.file("exam.toml", R"(
+format = 2
+title = "Measure the ball"
+case = "tiny"
+pass_mark_percent = 60
+time_limit_s = 30
+[[step]]
+kind = "measure"
+title = "Ball"
+instruction = "Measure it."
+view = "ball"
+tool = "distance"
+walls = "outer"
+[[step.target]]
+structures = ["ball"]
+[[step.criterion]]
+metric = "measurement_error_mm"
+full = 2
+zero = 10
+)");
+  const auto placed = [](double x) { return Action{ActionKind::caliper, {1, x, 40, x, 80}}; };
+  const ActionLog actions{
+      {1.0, {{ActionKind::freeze}}}, {1.5, {placed(-15)}}, {2.0, {placed(15)}}, {3.0, {{ActionKind::go_on}}}};
+  folder.file("scan.igs.mha", write_sequence(samples_of(4, 60,
+                                                        [](double) {
+                                                          return Pose{glm::dmat3(1.0), {0, 1, 0}};
+                                                        }),
+                                             to_texts(actions)));
+  Trainer trainer(folder.options());
+  trainer.open_from_options();
+  trainer.finish_loading();
+  for (int i = 0; i < 1000 && !trainer.session()->result(); ++i) {
+    trainer.update(i / 30.0);
+    if (!trainer.best_frame_due()) continue;
+    trainer.draw(kSizes);
+    trainer.keep_best_frame();
+  }
+  const Image<Rgba8>* const kept = trainer.best_frame();
+  REQUIRE(kept);
+  const PlaneOnScreen plane({0, 0}, {double(kept->width), double(kept->height)}, trainer.pictures().geometry());
+  const auto has_cross = [&](double x) {
+    const glm::dvec2 at = plane.screen({x, 80});
+    return kept->at(int(at.x), int(at.y)) == Rgba8{240, 240, 240, 255};
+  };
+  CHECK(has_cross(15));
+  CHECK_FALSE(has_cross(-15));
 }
 
 TEST_CASE("a second attempt's report shows its own best frame, and none when the view was never held") {

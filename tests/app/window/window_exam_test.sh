@@ -219,4 +219,17 @@ await "it is refused" contains problem "a recorded scan is nobody's exam"
 is overlay problem || fail "the refusal is not shown"
 xdotool key Return
 wait "$trainer" || fail "it ended with $?"
+
+echo "an exam that counts is handed in by leaving twice, and not by leaving once"
+start_trainer exam --scenario "$work/exam.toml" --tracker mouse: --learner L-08 --results "$work/lab.db"
+await "the briefing is shown" is overlay briefing
+xdotool key Return
+await "the exam begins" is overlay ""
+xdotool key ctrl+q
+await "the screen says what a second time does" contains toast "once more"
+kill -0 "$trainer" || fail "one key ended an exam that counts"
+xdotool key ctrl+q
+wait "$trainer" || fail "it ended with $?"
+"$score" attempts "$work/lab.db" >"$work/attempts.txt" 2>&1 || fail "$(cat "$work/attempts.txt")"
+grep -q "L-08.*exam" "$work/attempts.txt" || fail "the exam was not handed in: $(cat "$work/attempts.txt")"
 echo "passed"

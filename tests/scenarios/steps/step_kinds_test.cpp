@@ -134,9 +134,22 @@ TEST_CASE("a measurement that is not complete has its lengths and its reason, an
   subject.pictures = {{0, ReportPicture::Kind::reference, "ref"}};
   const std::string html = report_html(result_from_json(to_json(two), "x"), {}, subject);
   const std::string body = html.substr(html.find("<body>"));
-  CHECK(body.find("lengths: 40.0 mm, 30.0 mm") != std::string::npos);
+  CHECK(body.find("<td>lengths</td><td>40.0&nbsp;mm, 30.0&nbsp;mm</td>") != std::string::npos);
   CHECK(body.find("The picture at 1.5 s was judged.") != std::string::npos);
   CHECK(body.find("held") == std::string::npos);
+}
+
+TEST_CASE("a later step knows what was measured before, and not what is true") {
+  const Scenario exam =
+      exam_of(step("measure",
+                   "view = \"ball\"\ntool = \"ellipse\"\nwalls = \"outer\"\n[[step.target]]\nstructures = [\"ball\"]",
+                   "measurement_error_percent", "full = 5\nzero = 50") +
+              step("question", "choices = [\"yes\", \"no\"]\nright = \"no\"", "answer_right_percent"));
+  Runner runner(exam, shared_case(), tiny_tissues());
+  runner.feed(samples_of(3, 10, [](double) { return at_z(0); }),
+              {{1.0, {kFreeze}}, {1.5, {{ActionKind::ellipse, {1, -20, 60, 20, 60, 20}}}}, {2.0, {kGoOn}}});
+  REQUIRE(runner.live().step == 1);
+  CHECK(runner.live().measured == std::vector<std::string>{"A step: 12.57 cm\u00b2"});
 }
 
 TEST_CASE("areas, ratios and volumes are measured against the label map") {
