@@ -24,6 +24,18 @@ std::string in_words(Metric metric, double value) {
   return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
 }
 
+std::string unbroken(std::string_view sentence) {
+  std::string text;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    const bool after_number = i > 0 && sentence[i - 1] >= '0' && sentence[i - 1] <= '9';
+    if (sentence[i] == ' ' && after_number)
+      text += "\u00a0";
+    else
+      text += sentence[i];
+  }
+  return text;
+}
+
 std::string title_of(Metric metric) {
   const MetricInfo& m = info(metric);
   return std::string(m.words) + (m.of_reference ? " (100 %: the reference view)" : "");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scenarios/result.h"
 
@@ -16,6 +17,10 @@ std::string short_number(double value);
 
 /// Returns a metric's value with its unit: "12.4 mm", "82 %", "7".
 std::string in_words(Metric metric, double value);
+
+/// Returns the sentence with no-break spaces between numbers and what follows them, so that no line ends between a
+/// number and its unit.
+std::string unbroken(std::string_view sentence);
 
 /// Returns a metric's name for people who read its value. It says what 100 % is where a value can exceed it.
 std::string title_of(Metric metric);

@@ -38,17 +38,6 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// Returns a sentence in which no line breaks between a number and its unit.
-std::string unbroken(std::string_view sentence) {
-  std::string html;
-  char before = 0;
-  for (const char c : escaped(sentence)) {
-    html += c == ' ' && before >= '0' && before <= '9' ? std::string("&nbsp;") : std::string(1, c);
-    before = c;
-  }
-  return html;
-}
-
 std::string outcome_chip(StepOutcome outcome) {
   return "<span class='outcome " + std::string(is_done(outcome) ? "good" : "bad") + "'>" + in_words(outcome) +
          "</span>";
@@ -64,7 +53,7 @@ std::string row(const CriterionScore& m) {
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
   std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(title_of(m.metric)) + "</b>";
   if (m.critical) html += " <span class='critical'>critical</span>";
-  html += "<small>" + unbroken(m.why) + "</small></td>";
+  html += "<small>" + escaped(unbroken(m.why)) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
   html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
   html +=
@@ -142,7 +131,7 @@ std::string facts_of(const StepResult& step) {
   if (step.facts.empty()) return "";
   std::string rows;
   for (const auto& [what, fact] : step.facts)
-    rows += "<tr><td>" + escaped(what) + "</td><td>" + unbroken(fact) + "</td></tr>\n";
+    rows += "<tr><td>" + escaped(what) + "</td><td>" + escaped(unbroken(fact)) + "</td></tr>\n";
   return "<table class='facts'>" + rows + "</table>";
 }
 
@@ -197,7 +186,7 @@ std::string verdict(const ExamResult& result) {
             std::to_string(result.steps.size()) + " steps.</p>";
   if (!result.reasons.empty()) {
     html += "<ul>";
-    for (const std::string& reason : result.reasons) html += "<li>" + unbroken(reason) + "</li>";
+    for (const std::string& reason : result.reasons) html += "<li>" + escaped(unbroken(reason)) + "</li>";
     html += "</ul>";
   }
   return html + overview(result) + "</div>\n";

@@ -105,7 +105,7 @@ TEST_CASE("JSON that is not a result is refused") {
 
 /// Returns the page with blanks at which a line may break.
 std::string breakable(std::string html) {
-  for (std::size_t at = 0; (at = html.find("&nbsp;", at)) != std::string::npos;) html.replace(at, 6, " ");
+  for (std::size_t at = 0; (at = html.find("\u00a0", at)) != std::string::npos;) html.replace(at, 2, " ");
   return html;
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("no line of the report breaks between a number and its unit") {
   const std::string& why = one.result.steps[0].criteria[0].why;
   const std::size_t blank = why.find(" mm");
   REQUIRE(blank != std::string::npos);
-  CHECK(html.find(why.substr(0, blank) + "&nbsp;mm") != std::string::npos);
+  CHECK(html.find(why.substr(0, blank) + "\u00a0mm") != std::string::npos);
 }
 
 TEST_CASE("the report names the verdict, its reasons, and each criterion with value, limits, points and why") {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scenarios/words.h"
+
 namespace insonate::ui {
 namespace {
 
@@ -59,8 +61,9 @@ bool tips_are_hidden = false;
 std::vector<std::string> cut_texts;
 
 /// Draws a text in a box above `of`, or below where there is no room.
-void draw_box(const Theme& theme, const Rect& of, std::string_view text) {
-  if (text.empty() || tips_are_hidden) return;
+void draw_box(const Theme& theme, const Rect& of, std::string_view words) {
+  if (words.empty() || tips_are_hidden) return;
+  const std::string text = unbroken(words);
   const ImGuiIO& io = ImGui::GetIO();
   const ImVec2 size = size_of(theme.text, text, theme.px(340));
   Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
@@ -127,15 +130,16 @@ void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view t
 }
 
 float paragraph_height(ImFont* font, std::string_view text, float width) {
-  return size_of(font, text, width).y;
+  return size_of(font, unbroken(text), width).y;
 }
 
-float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view text) {
+float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view words) {
+  const std::string text = unbroken(words);
   const ImVec4 clip(where.x, where.y, where.x + where.w + 1, where.y + where.h);
   ImGui::GetWindowDrawList()->AddText(font, font->FontSize, where.min(), colour, text.data(), text.data() + text.size(),
                                       where.w, &clip);
-  const float height = paragraph_height(font, text, where.w);
-  if (height > where.h + 1) cut_texts.emplace_back(text);
+  const float height = size_of(font, text, where.w).y;
+  if (height > where.h + 1) cut_texts.emplace_back(words);
   return height;
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("a measurement that is not complete has its lengths and its reason, an
   subject.pictures = {{0, ReportPicture::Kind::reference, "ref"}};
   const std::string html = report_html(result_from_json(to_json(two), "x"), {}, subject);
   const std::string body = html.substr(html.find("<body>"));
-  CHECK(body.find("<td>lengths</td><td>40.0&nbsp;mm, 30.0&nbsp;mm</td>") != std::string::npos);
+  CHECK(body.find("<td>lengths</td><td>40.0\u00a0mm, 30.0\u00a0mm</td>") != std::string::npos);
   CHECK(body.find("The picture at 1.5 s was judged.") != std::string::npos);
   CHECK(body.find("held") == std::string::npos);
 }
