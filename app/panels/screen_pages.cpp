@@ -232,6 +232,7 @@ void Screen::toggle_volume(const Trainer& trainer) {
   if (!trainer.swept() && trainer.sweep().reconstructing())
     return show_note("The swept volume is being made, and is shown with U when it is");
   if (!trainer.swept()) return show_note("Sweep a volume first: T begins a sweep and ends it");
+  toast_.hide();  // it says that the volume can be shown
   toggle(Overlay::volume);
 }
 

@@ -28,7 +28,7 @@ std::filesystem::path Toast::draw(const Theme& theme, const Rect& where, std::ma
   const float text_height = paragraph_height(theme.strong, text_, width + 1);
   const float height = std::max(text_height, beside > 0 ? theme.px(30) : 0) + theme.px(20);
   const Rect plate{std::round(where.x + (where.w - width - beside) / 2 - margin),
-                   std::round(where.y + where.h - height), width + beside + 2 * margin, height};
+                   std::round(where.y + where.h - height), std::ceil(width + beside + 2 * margin), std::ceil(height)};
   ImGui::SetNextWindowPos(plate.min());
   ImGui::SetNextWindowSize({plate.w, plate.h});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, 0);

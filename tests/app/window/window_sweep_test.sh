@@ -31,6 +31,7 @@ echo "the button shows the volume, and planes follow the mouse"
 await "the button is there" is_not volume_x ""
 click_on volume
 await "the page is open" is overlay volume
+await "nothing says any more that it can be opened" is toast ""
 await "its planes are there" is_not plane_imaging_x ""
 await "nothing changes any more" shows_nothing
 px=$(value planes_x) py=$(value planes_y) pz=$(value planes_z)
