@@ -11,6 +11,7 @@
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 #include "scenarios/words.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate {

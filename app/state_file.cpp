@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/caliper.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

@@ -23,6 +23,7 @@
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 #include "sim/core/input_error.h"
+#include "sim/files/png.h"
 
 namespace insonate {
 namespace {

@@ -6,8 +6,8 @@
 #include "devices/calibration/utc.h"
 #include "devices/filter/sample_filters.h"
 #include "devices/registry.h"
-#include "sim/core/digest.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
 
 namespace insonate {
 

@@ -20,7 +20,7 @@ struct RecordingRepairs {
 /// Provenance of a recorded scan's samples, so that a score can name it.
 struct Recording {
   std::string file;                         ///< file name without the folder
-  std::string digest;                       ///< digest of exactly the bytes that were parsed (sim/core/digest.h)
+  std::string digest;                       ///< digest of exactly the bytes that were parsed (sim/files/digest.h)
   std::string transform;                    ///< the transform that was taken for the probe's: "ProbeToPatient"
   std::map<double, std::string> actions{};  ///< actions by frame time, for frames that have some; see SequenceFrame
   bool of_sensor = false;  ///< true: the poses are a sensor's in its tracker's frame, not the probe's in the patient

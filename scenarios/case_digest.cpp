@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/digest.h"
+#include "sim/files/digest.h"
 
 namespace insonate {
 namespace {

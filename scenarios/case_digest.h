@@ -6,7 +6,7 @@
 
 namespace insonate {
 
-/// Returns the digest (sim/core/digest.h) of everything that scoring reads from a case: grid, CT, labels, their names,
+/// Returns the digest (sim/files/digest.h) of everything that scoring reads from a case: grid, CT, labels, their names,
 /// landmarks and views.
 std::string digest_of(const Case& subject);
 

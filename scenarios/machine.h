@@ -9,6 +9,7 @@
 #include "scenarios/action.h"
 #include "scenarios/scenario.h"
 #include "sim/core/pose.h"
+#include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 #include "sim/volume/case.h"
 
@@ -21,7 +22,7 @@ struct Machine {
   double depth_mm = 160;
   double frequency_mhz = 3.5;
   double gain_db = 0;
-  double dynamic_range_db = kDynamicRange_db;
+  double dynamic_range_db = kUsualDynamicRangeDb;
   std::array<double, Action::kTimeGainSliders>
       time_gain_db{};       ///< sliders from near to far, added to the machine's own compensation
   int steering_angles = 3;  ///< of compounding, odd; these four as in Settings, at rest as in with_usual_display()
@@ -31,7 +32,7 @@ struct Machine {
   std::optional<Pose> frozen_at;  ///< pose of the frozen picture; empty if no valid sample came before
 
   static constexpr double kLeastDepth_mm = 30, kMostDepth_mm = 240;
-  static constexpr double kLeastDynamicRange_db = 30, kMostDynamicRange_db = 90, kDynamicRange_db = 60;
+  static constexpr double kLeastDynamicRange_db = 30, kMostDynamicRange_db = 90;
   static constexpr int kMostSteeringAngles = 5;
   static constexpr double kMostPersistence = 0.9, kMostEdgeEnhancement = 2;
   static constexpr double kMostGain_db = 30, kMostTimeGain_db = 20;  ///< in both directions from 0

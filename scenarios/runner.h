@@ -16,8 +16,8 @@
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
 #include "sim/core/probe_sample.h"
-#include "sim/model/skin_contact.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/skin_contact.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

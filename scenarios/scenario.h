@@ -12,7 +12,7 @@
 
 #include "scenarios/action.h"
 #include "scenarios/metrics/metric.h"
-#include "sim/core/mistake.h"
+#include "sim/files/mistake.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/case.h"
 
@@ -109,7 +109,7 @@ struct Scenario {
   std::size_t variants = 0;    ///< number of variants in the file
   std::filesystem::path file;  ///< where it was read from, for messages and for relative case folders
   std::string text;            ///< the file's bytes
-  std::string digest;          ///< digest of `text` (sim/core/digest.h)
+  std::string digest;          ///< digest of `text` (sim/files/digest.h)
 };
 
 /// Reports all problems of a scenario, in the order of the file (input_error()).

@@ -4,9 +4,9 @@
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_task.h"
 #include "scenarios/steps/structures.h"
-#include "sim/core/files.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/model/tissue.h"
+#include "sim/files/files.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate {
 namespace {

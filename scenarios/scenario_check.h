@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/core/mistake.h"
+#include "sim/files/mistake.h"
 
 namespace insonate {
 

@@ -18,7 +18,7 @@
 #include "app/panels/scan/guide_layer.h"
 #include "app/panels/scan/ultrasound_panel.h"
 #include "app/panels/views/space_lines.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate::ui {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "devices/live/steady_clock.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 

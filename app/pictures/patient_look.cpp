@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "scenarios/words.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "sim/view/body/transfer_function_file.h"
 
 namespace insonate {

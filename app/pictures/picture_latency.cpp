@@ -1,7 +1,7 @@
 #include "app/pictures/picture_latency.h"
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/recording/webm.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

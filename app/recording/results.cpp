@@ -7,7 +7,7 @@
 
 #include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
-#include "sim/core/png_bytes.h"
+#include "sim/files/png.h"
 
 namespace insonate {
 

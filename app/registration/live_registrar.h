@@ -16,7 +16,7 @@
 #include "sim/alignment/registration.h"
 #include "sim/alignment/sweep_window.h"
 #include "sim/alignment/tracked_sweep.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 

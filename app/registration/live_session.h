@@ -13,7 +13,7 @@
 #include "devices/igtl/tracked_images.h"
 #include "sim/alignment/echo_seen.h"
 #include "sim/alignment/find_fan.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/case.h"
 #include "tools/register/read_sweep.h"
 

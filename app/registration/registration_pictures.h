@@ -12,9 +12,9 @@
 #include "sim/core/image.h"
 #include "sim/gl/objects.h"
 #include "sim/imaging/simulator.h"
-#include "sim/model/acoustic_volume.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "devices/replay/read_log.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/model/skin_contact.h"
+#include "sim/files/files.h"
+#include "sim/tissue/skin_contact.h"
 #include "sim/volume/open_case.h"
 
 namespace insonate {

@@ -9,8 +9,8 @@
 
 #include "devices/tracker_context.h"
 #include "scenarios/scenario.h"
-#include "sim/model/acoustic_volume.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 namespace {

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/open_case.h"
 
 namespace insonate {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/held_files.h"
 
 namespace insonate {
 namespace {

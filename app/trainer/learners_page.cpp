@@ -9,8 +9,8 @@
 #include "scenarios/results/export/report_files.h"
 #include "scenarios/results/export/results_export.h"
 #include "scenarios/results/learner_id.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

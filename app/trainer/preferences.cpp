@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/pictures/igtl_feed.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/toml_table.h"
-#include "sim/core/toml_value.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
+#include "sim/files/toml_value.h"
 
 namespace insonate {
 namespace {

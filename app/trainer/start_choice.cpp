@@ -4,7 +4,7 @@
 #include <random>
 
 #include "app/trainer/start_page.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 

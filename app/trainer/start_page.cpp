@@ -15,9 +15,9 @@
 #include "scenarios/format/variants.h"
 #include "scenarios/results/roster.h"
 #include "scenarios/words.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

@@ -8,10 +8,10 @@
 #include "devices/calibrated_tracker.h"
 #include "devices/live/steady_clock.h"
 #include "devices/registry.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/imaging/upload.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 namespace {

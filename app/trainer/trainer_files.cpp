@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "app/trainer/trainer.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
+#include "sim/files/png.h"
 
 namespace insonate {
 namespace {

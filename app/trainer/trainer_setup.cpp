@@ -8,8 +8,8 @@
 #include "app/trainer/trainer.h"
 #include "devices/calibrated_tracker.h"
 #include "devices/registry.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

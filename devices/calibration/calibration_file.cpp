@@ -8,10 +8,10 @@
 
 #include "devices/calibration/calibration.h"
 #include "devices/calibration/utc.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/toml_table.h"
-#include "sim/core/toml_value.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
+#include "sim/files/toml_value.h"
 
 namespace insonate {
 namespace {

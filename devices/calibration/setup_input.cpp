@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <set>
 
-#include "sim/core/files.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "devices/record/append_only.h"
 #include "devices/sequence/sequence_text.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/image_headers/header_text.h"
 
 namespace insonate {

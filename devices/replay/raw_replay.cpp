@@ -10,9 +10,9 @@
 #include "devices/live/sample_conditioner.h"
 #include "devices/registry.h"
 #include "devices/replay/replay_tracker.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "sim/image_headers/header_text.h"
 
 namespace insonate {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "devices/replay/raw_replay.h"
-#include "sim/core/files.h"
-#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
+#include "sim/files/held_files.h"
 
 namespace insonate {
 

@@ -11,7 +11,7 @@ namespace insonate {
 struct SequenceFile {
   std::string front, back;  ///< the header and some bytes more; the last bytes
   std::uint64_t size = 0;
-  std::string digest;  ///< digest of all bytes (sim/core/digest.h)
+  std::string digest;  ///< digest of all bytes (sim/files/digest.h)
 
   CutBytes bytes() const { return {front, size, back}; }
 };

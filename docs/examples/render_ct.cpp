@@ -4,8 +4,9 @@
 #include <exception>
 #include <stdexcept>
 
-#include "sim/core/files.h"
 #include "sim/core/image.h"
+#include "sim/files/files.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/volume/open_case.h"

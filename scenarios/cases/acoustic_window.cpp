@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "scenarios/cases/structure_shape.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenarios/cases/body.h"
-#include "sim/model/transmission.h"
+#include "sim/tissue/transmission.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

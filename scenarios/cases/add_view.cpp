@@ -5,7 +5,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 void add_view(const std::filesystem::path& case_folder, const ReferenceView& view, const TissueTable& tissues) {

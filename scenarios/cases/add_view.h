@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scenarios/cases/mask_filters.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 namespace {

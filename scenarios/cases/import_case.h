@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/model/tissue.h"
 #include "sim/phantom/phantom.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

@@ -5,8 +5,8 @@
 
 #include "scenarios/cases/anatomy.h"
 #include "scenarios/cases/body.h"
-#include "sim/model/tissue.h"
 #include "sim/phantom/phantom.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate {
 

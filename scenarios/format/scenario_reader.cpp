@@ -6,11 +6,11 @@
 #include "scenarios/format/variants.h"
 #include "scenarios/scenario.h"
 #include "scenarios/steps/step_kinds.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

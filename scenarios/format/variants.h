@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "scenarios/metrics/metric.h"
-#include "sim/model/tissue.h"
-#include "sim/model/transmission.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/tissue.h"
+#include "sim/tissue/transmission.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

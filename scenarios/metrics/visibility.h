@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "sim/model/tissue.h"
-#include "sim/model/transmission.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/tissue.h"
+#include "sim/tissue/transmission.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

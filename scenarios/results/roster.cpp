@@ -3,9 +3,9 @@
 #include <map>
 
 #include "scenarios/results/learner_id.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

@@ -12,7 +12,7 @@
 #include "scenarios/words.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

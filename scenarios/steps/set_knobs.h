@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenarios/steps/step_task.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 

@@ -12,7 +12,7 @@
 #include "scenarios/result.h"
 #include "scenarios/steps/step_input.h"
 #include "sim/core/pose.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

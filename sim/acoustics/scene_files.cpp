@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
-#include "sim/core/new_folder.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 
 namespace insonate {
 namespace {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "sim/image_headers/nrrd_header.h"
 
 namespace insonate {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

@@ -10,7 +10,7 @@
 #include "sim/alignment/free_form_field.h"
 #include "sim/alignment/registration.h"
 #include "sim/alignment/tracked_sweep.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 

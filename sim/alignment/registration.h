@@ -14,8 +14,8 @@
 #include "sim/alignment/motion.h"
 #include "sim/alignment/similarity.h"
 #include "sim/alignment/tracked_sweep.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/registration/wein_settings.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 

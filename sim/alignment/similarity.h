@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/alignment/tracked_sweep.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/registration/wein_settings.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 

@@ -6,9 +6,9 @@
 
 #include "sim/alignment/tracked_sweep.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate {
 

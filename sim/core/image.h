@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 namespace insonate {
@@ -58,9 +57,5 @@ Image<T> upright(const Image<T>& upside_down) {
 }
 
 using Rgba8 = std::array<std::uint8_t, 4>;
-
-/// Writes a PNG under a temporary name and renames it. Throws InputError if it cannot be written.
-void write_png(const std::filesystem::path& file, const Image<std::uint8_t>& grey);
-void write_png(const std::filesystem::path& file, const Image<Rgba8>& image);
 
 }  // namespace insonate

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "sim/gl/objects.h"
-#include "sim/model/acoustic_volume.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::gl {
 

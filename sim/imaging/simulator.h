@@ -12,12 +12,12 @@
 #include "sim/gl/work_division.h"
 #include "sim/imaging/line_stages.h"
 #include "sim/imaging/stage.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
 #include "sim/model/stored_speckle.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::gl {
 

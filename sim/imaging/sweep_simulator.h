@@ -10,10 +10,10 @@
 #include "sim/gl/program.h"
 #include "sim/gl/work_division.h"
 #include "sim/imaging/stage.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/sweep.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::gl {
 

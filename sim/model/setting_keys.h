@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/core/text.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 #include "sim/model/settings_file.h"
 
 /// Maps a struct of settings to keys of a TOML file. settings_file.cpp and wein_settings_file.cpp share it.

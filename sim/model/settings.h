@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "sim/model/coupling.h"
+#include "sim/tissue/coupling.h"
 
 namespace insonate {
 
@@ -28,6 +28,8 @@ enum class GreyMap {
 /// The largest time gain, dB. Sound that has lost as much counts as silent, and 10^30 with the gain on top still
 /// fits single precision.
 inline constexpr double kMostTimeGainDb = 300;
+/// What a machine shows from black to white, until somebody turns the knob.
+inline constexpr double kUsualDynamicRangeDb = 60;
 
 /// All settings of model S: how it turns a volume, a pose and a probe into a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab 2009. A field added here also needs its line in settings_file.cpp.
@@ -92,7 +94,7 @@ struct Settings {
   // Display (7): like the controls of the same names on machines (Szabo, Diagnostic Ultrasound Imaging, 10)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
-  double dynamic_range_db = 55;    ///< beta, 1 to 200
+  double dynamic_range_db = kUsualDynamicRangeDb;  ///< beta, 1 to 200
   ReferenceLevel reference_level = ReferenceLevel::fixed;
   double fixed_level = 0.014;  ///< the U that is white before gain, 1e-12 to 1e6
   GreyMap grey_map = GreyMap::linear;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/model/setting_keys.h"
 
 namespace insonate {

@@ -10,8 +10,8 @@
 #include <map>
 #include <system_error>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 
 namespace insonate {

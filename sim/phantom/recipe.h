@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/core/suggest.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 #include "sim/phantom/phantom.h"
 
 namespace insonate {

@@ -94,7 +94,7 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
 
 }  // namespace
 
-/// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/model/coupling.h).
+/// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/tissue/coupling.h).
 static double gel_share(double hu) {
   return std::clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
 }

@@ -5,14 +5,14 @@
 #include <span>
 
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/beam.h"
-#include "sim/model/coupling.h"
 #include "sim/model/settings.h"
 #include "sim/model/stages.h"
 #include "sim/model/stored_speckle.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/coupling.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate {
 

@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include "sim/gl/objects.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate::gl {
 

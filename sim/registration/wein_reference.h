@@ -7,10 +7,10 @@
 
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
 #include "sim/registration/wein_stages.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/model/coupling.h"
+#include "sim/tissue/coupling.h"
 
 namespace insonate {
 
@@ -45,6 +45,6 @@ inline constexpr int kLeastPatch = 4, kMostPatch = 128;
 inline constexpr int kMostPatches = 5376;
 
 // The least mu that counts is that of air, kAirMu: air's density is 1.2e-3 of water's, whose mu is 1000. Nearer to the
-// face than contact_mm, air counts as water as coupling gel does in model S (sim/model/coupling.h).
+// face than contact_mm, air counts as water as coupling gel does in model S (sim/tissue/coupling.h).
 
 }  // namespace insonate

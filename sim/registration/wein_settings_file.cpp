@@ -1,6 +1,6 @@
 #include "sim/registration/wein_settings_file.h"
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/model/setting_keys.h"
 
 namespace insonate {

@@ -14,10 +14,10 @@
 #include "sim/gl/program.h"
 #include "sim/gl/work_division.h"
 #include "sim/imaging/stage.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
 #include "sim/registration/wein_stages.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate::gl {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 namespace insonate {
 namespace {

@@ -9,9 +9,9 @@
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 #include "sim/model/settings.h"
-#include "sim/model/tissue.h"
-#include "sim/model/transmission.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/tissue.h"
+#include "sim/tissue/transmission.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

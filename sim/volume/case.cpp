@@ -11,12 +11,12 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/core/toml_table.h"
-#include "sim/core/toml_value.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
+#include "sim/files/toml_value.h"
 #include "sim/volume/ct_reader.h"
 
 namespace insonate {

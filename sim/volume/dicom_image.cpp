@@ -9,8 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/voxel_data.h"
 
 namespace insonate {

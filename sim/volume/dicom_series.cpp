@@ -19,9 +19,9 @@
 #include <optional>
 #include <set>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/volume/dicom_image.h"
 #include "sim/volume/volume_checks.h"
 

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <map>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/image_headers/metaimage_header.h"
 #include "sim/image_headers/nrrd_header.h"
 #include "sim/volume/byte_stream.h"

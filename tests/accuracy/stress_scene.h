@@ -11,11 +11,11 @@
 
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "tests/model/amplitudes.h"
 
 /// Stress inputs for the pipeline: everything that a picture depends on, up to the ends of its range.

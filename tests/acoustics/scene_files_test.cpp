@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/acoustics/helpers.h"
 #include "tests/core/temporary_folder.h"
 

@@ -14,7 +14,7 @@
 
 #include "sim/acoustics/echo_lines.h"
 #include "sim/acoustics/speckle_file.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 using namespace insonate;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/probe/probe.h"
 #include "tests/acoustics/helpers.h"
 

@@ -13,7 +13,7 @@
 #include "sim/alignment/echo_seen.h"
 #include "sim/alignment/find_fan.h"
 #include "sim/imaging/simulator.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_body.h"
 

@@ -10,7 +10,7 @@
 #include "devices/calibration/steps/setup_step.h"
 #include "devices/live/probe_buttons.h"
 #include "devices/sequence/sequence.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/devices/calibration/hand.h"
 
 using namespace insonate;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 namespace insonate {

@@ -17,7 +17,7 @@
 #include "devices/sequence/sequence.h"
 #include "devices/sequence/sequence_text.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/run_program.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/devices/test_samples.h"

@@ -14,8 +14,8 @@
 #include "devices/osvr/osvr_report.h"
 #include "devices/polhemus/polhemus_stream.h"
 #include "devices/spacemouse/spacemouse_report.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 

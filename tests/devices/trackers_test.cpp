@@ -15,10 +15,10 @@
 #include "devices/registry.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/synthetic/synthetic_tracker.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 

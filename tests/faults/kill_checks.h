@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/faults/killed_process.h"
 
 namespace insonate {

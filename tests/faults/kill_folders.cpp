@@ -8,6 +8,7 @@
 #include "scenarios/results/export/report_files.h"
 #include "sim/core/hash.h"
 #include "sim/core/image.h"
+#include "sim/files/png.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/case.h"
 #include "tests/faults/kill_checks.h"

@@ -29,7 +29,7 @@
 #include "devices/crc16.h"
 #include "devices/live/steady_clock.h"
 #include "devices/replay/read_log.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/volume/case.h"
 #include "tests/devices/mocked/mocked_hid.h"
 #include "tests/devices/mocked/testbed.h"

@@ -6,7 +6,7 @@
 
 #include "scenarios/results/export/report_files.h"
 #include "scenarios/results/learner_id.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

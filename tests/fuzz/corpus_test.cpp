@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace insonate;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/volume/dicom_image.h"
 #include "sim/volume/dicom_series.h"
 #include "tests/fuzz/volume_promises.h"

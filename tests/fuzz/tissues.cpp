@@ -1,7 +1,7 @@
 // The tissue table.
 #include <cmath>
 
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

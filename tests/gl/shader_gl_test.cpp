@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/program.h"
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"

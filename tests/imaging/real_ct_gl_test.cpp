@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/files/png.h"
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/real_ct.h"

@@ -7,8 +7,8 @@
 
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::test {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/imaging/simulator.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "tests/gl/test_context.h"
 
 using namespace insonate;

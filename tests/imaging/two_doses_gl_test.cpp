@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sim/imaging/simulator.h"
-#include "sim/model/ct_noise.h"
+#include "sim/tissue/ct_noise.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/real_ct.h"

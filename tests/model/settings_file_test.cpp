@@ -9,8 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/registration/wein_settings_file.h"
 
 using namespace insonate;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 
 namespace insonate {

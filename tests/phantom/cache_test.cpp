@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 #include "tests/core/temporary_folder.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/phantom/arithmetic.h"
 #include "sim/phantom/phantom.h"
 #include "sim/phantom/shapes.h"

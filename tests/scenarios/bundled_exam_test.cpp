@@ -7,7 +7,7 @@
 #include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 

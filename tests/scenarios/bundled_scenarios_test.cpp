@@ -7,7 +7,7 @@
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 

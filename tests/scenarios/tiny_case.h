@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/core/probe_sample.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate {

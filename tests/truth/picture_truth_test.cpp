@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "scenarios/metrics/visibility.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 
 using namespace insonate;

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/ct_reader.h"
 #include "sim/volume/dicom_series.h"
 #include "tests/core/temporary_folder.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <functional>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/core/temporary_folder.h"
 

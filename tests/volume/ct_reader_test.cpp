@@ -9,8 +9,8 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/text_volumes.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/volume/volume_files.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "sim/acoustics/scenes.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/imaging/upload.h"
 #include "sim/probe/probe.h"
 #include "tools/bench/acoustics.h"

@@ -8,10 +8,10 @@
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/imaging/device_volume.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::gl {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/beam.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/model/settings_file.h"
 #include "tools/cli/subject.h"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings.h"
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
+#include "sim/tissue/tissue.h"
 
 namespace insonate::bench {
 

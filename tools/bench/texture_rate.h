@@ -5,7 +5,7 @@
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
 #include "sim/gl/work_division.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate::gl {
 

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/files/files.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/open_case.h"
 

@@ -10,9 +10,9 @@
 #include <cstring>
 #include <set>
 
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "tools/cli/about.h"
 #include "tools/dataset/shard_file.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "tools/dataset/patients.h"
 #include "tools/dataset/study.h"
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "sim/core/digest.h"
+#include "sim/files/digest.h"
 #include "sim/model/settings_file.h"
 
 namespace insonate {

@@ -18,7 +18,7 @@ struct DatasetImage {
   PictureTruth truth;
   glm::dmat4 patient_from_pixel{1.0};  ///< from (column, row, 0, 1) to patient mm
   std::string settings;                ///< all fields of Settings as one JSON object
-  std::string digest;                  ///< of all of the above (sim/core/digest.h)
+  std::string digest;                  ///< of all of the above (sim/files/digest.h)
 };
 
 /// Adds the truth to a picture and turns both as they are shown.

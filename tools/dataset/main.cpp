@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
-#include "sim/core/new_folder.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
+#include "sim/files/png.h"
 #include "tools/cli/program.h"
 #include "tools/dataset/dataset_folder.h"
 #include "tools/dataset/make_shards.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/volume/open_case.h"
 #include "tools/dataset/draws.h"
 

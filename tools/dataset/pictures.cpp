@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "sim/imaging/upload.h"
-#include "sim/model/acoustic_volume.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/open_case.h"
 
 namespace insonate {

@@ -9,7 +9,7 @@
 #include "sim/gl/headless_context.h"
 #include "sim/gl/readback.h"
 #include "sim/imaging/simulator.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 #include "tools/dataset/shots.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 #include "sim/model/settings.h"
 #include "tools/dataset/draws.h"
 #include "tools/dataset/study.h"

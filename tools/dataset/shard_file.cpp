@@ -12,8 +12,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sim/core/digest.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
 #include "tools/dataset/study.h"
 
 namespace insonate {

@@ -10,7 +10,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 #include "tools/dataset/draws.h"
 #include "tools/dataset/setting_ranges.h"
 #include "tools/dataset/skin_poses.h"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/mistake.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/mistake.h"
+#include "sim/files/toml_table.h"
 #include "sim/model/settings.h"
 #include "sim/model/settings_file.h"
 #include "sim/probe/probe.h"

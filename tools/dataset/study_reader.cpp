@@ -2,10 +2,10 @@
 #include <limits>
 #include <set>
 
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "tools/dataset/setting_ranges.h"
 #include "tools/dataset/study.h"
 

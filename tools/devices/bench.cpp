@@ -13,7 +13,7 @@
 #include "devices/live/paced_source.h"
 #include "devices/live/steady_clock.h"
 #include "devices/pose_history.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tools/devices/commands.h"
 
 namespace insonate::devices {

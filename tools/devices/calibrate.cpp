@@ -15,8 +15,8 @@
 #include "devices/calibration/steps/setup_step.h"
 #include "devices/live/steady_clock.h"
 #include "devices/registry.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tools/devices/commands.h"
 
 namespace insonate::devices {

@@ -12,7 +12,7 @@
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 #include "tools/make_log/act.h"
 
 namespace insonate {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scenarios/scenario.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tools/cli/program.h"
 #include "tools/make_log/hand.h"
 #include "tools/make_log/plan.h"

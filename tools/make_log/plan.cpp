@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "sim/core/files.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 
 namespace insonate {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "sim/model/tissue.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/case.h"
 
 namespace insonate::python {

@@ -1,8 +1,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "sim/core/files.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
 #include "sim/volume/open_case.h"
 #include "tools/python/arrays.h"

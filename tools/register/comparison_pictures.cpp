@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/image.h"
+#include "sim/files/png.h"
 
 namespace insonate {
 namespace {

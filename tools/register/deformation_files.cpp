@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

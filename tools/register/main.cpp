@@ -8,10 +8,10 @@
 
 #include "sim/alignment/free_form.h"
 #include "sim/alignment/registration.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/new_folder.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/registration/wein_settings_file.h"

@@ -14,9 +14,9 @@
 
 #include "devices/replay/read_log.h"
 #include "devices/sequence/recorded_images.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
 #include "sim/volume/dicom_series.h"
 #include "tools/cli/pose_file.h"
 #include "tools/register/read_dicom_sweep.h"

@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "sim/core/files.h"
-#include "sim/core/new_folder.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 #include "sim/reconstruction/reconstruction.h"
 #include "sim/reconstruction/sweep_extent.h"
 #include "sim/reconstruction/tracked_picture.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

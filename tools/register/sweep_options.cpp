@@ -3,8 +3,8 @@
 #include <glm/vec2.hpp>
 
 #include "sim/core/input_error.h"
-#include "sim/core/read_png.h"
 #include "sim/core/suggest.h"
+#include "sim/files/png.h"
 #include "sim/probe/probe.h"
 #include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"

@@ -8,10 +8,11 @@
 #include <optional>
 
 #include "sim/acoustics/speckle_file.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/new_folder.h"
 #include "sim/core/suggest.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/sweep_simulator.h"

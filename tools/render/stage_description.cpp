@@ -3,7 +3,6 @@
 #include "sim/core/hash.h"
 #include "sim/model/beam.h"
 #include "sim/model/compounding.h"
-#include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/mirror_image.h"
 #include "sim/model/noise.h"
@@ -13,6 +12,7 @@
 #include "sim/model/stages.h"
 #include "sim/model/waves.h"
 #include "sim/reference/reference.h"
+#include "sim/tissue/ct_noise.h"
 #include "sim/volume/ct_reader.h"
 #include "tools/render/stage_files.h"
 

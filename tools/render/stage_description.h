@@ -9,9 +9,9 @@
 
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/model/settings_file.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "tools/render/stages.h"
 
 namespace insonate {

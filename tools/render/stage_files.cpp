@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

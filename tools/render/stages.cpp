@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <complex>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/noise.h"
 #include "sim/reference/reference.h"

@@ -5,7 +5,7 @@
 
 #include "scenarios/scenario.h"
 #include "scenarios/scenario_check.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tools/cli/subject.h"
 
 namespace insonate {

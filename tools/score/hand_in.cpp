@@ -7,9 +7,9 @@
 #include "devices/sequence/sequence.h"
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/runner.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "tools/score/attempt_cases.h"
 #include "tools/score/commands.h"
 

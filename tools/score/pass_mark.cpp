@@ -9,9 +9,9 @@
 #include <string>
 
 #include "scenarios/results/roster.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "tools/score/commands.h"
 
 namespace insonate {

@@ -8,7 +8,7 @@
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/results/rescoring.h"
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tools/score/attempt_cases.h"
 #include "tools/score/commands.h"
 

@@ -9,9 +9,9 @@
 #include "app/registration/live_session.h"
 #include "app/registration/screen/registration_state.h"
 #include "devices/live/steady_clock.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/model/tissue.h"
+#include "sim/files/files.h"
+#include "sim/tissue/tissue.h"
 #include "tools/cli/subject.h"
 
 namespace insonate {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 

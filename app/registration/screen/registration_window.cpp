@@ -25,11 +25,12 @@
 #include "app/registration/screen/registration_page.h"
 #include "app/registration/screen/registration_state.h"
 #include "devices/live/steady_clock.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "tools/cli/subject.h"
 
 namespace insonate {

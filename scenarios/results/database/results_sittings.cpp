@@ -7,8 +7,8 @@
 #include "scenarios/results/database/packed_column.h"
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/results/learner_id.h"
-#include "sim/core/digest.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
 
 namespace insonate {
 namespace {

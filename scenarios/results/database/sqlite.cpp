@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "sim/core/held_files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/held_files.h"
 
 namespace insonate::sqlite {
 

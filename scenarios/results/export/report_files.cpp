@@ -10,7 +10,7 @@
 #include "scenarios/results/export/score_csv.h"
 #include "scenarios/results/export/xapi.h"
 #include "scenarios/results/trace_json.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate {
 namespace {

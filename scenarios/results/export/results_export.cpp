@@ -7,9 +7,9 @@
 #include "scenarios/result_json.h"
 #include "scenarios/results/export/csv.h"
 #include "scenarios/results/export/score_csv.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
-#include "sim/core/new_folder.h"
+#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 
 namespace insonate {
 namespace {

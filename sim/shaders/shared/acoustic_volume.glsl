@@ -13,7 +13,7 @@ const float kFirstHu = -1024.0;
 const vec2 kGel = vec2(0.0, -6000.0);         // water's density, without echo
 const vec2 kOutside = vec2(-1000.0, -6000.0);  // outside the volume and around the body
 
-// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/model/coupling.h).
+// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/tissue/coupling.h).
 float gel_share(float hu) { return clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0); }
 
 vec2 impedance_and_absorption(float hu) {

@@ -43,7 +43,7 @@ const int kEdgesAnywhere = 0;
 
 const float kMeanCosine = 0.5;           // |d . n| over all directions, for interfaces too weak to need a normal
 const float kLn10 = 2.302585093;
-// As in sim/model/acoustic_volume.h: the level in hundredths of a dB, and 10^(level / 1000).
+// As in sim/tissue/acoustic_volume.h: the level in hundredths of a dB, and 10^(level / 1000).
 const float kSilentEchogenicity = -5999.5;
 #if WAVES == 1
 const float kSilentAmplitude = 1.00057581e-3;  // 10^(level / 2000)
@@ -186,7 +186,7 @@ vec2 scatterers_echo(float k, Medium here) {
 }
 
 // Returns the share of sound that an interface returns although it may be the surface of gel that touches nothing
-// (sim/model/coupling.h).
+// (sim/tissue/coupling.h).
 float returned_by_gel(float k, Medium behind) {
   bool ends_here = coupling_depth_mm > half_reflection_length * dr_mm + kLeastGel_mm &&
                    depth(k - half_reflection_length) < coupling_depth_mm &&
@@ -204,7 +204,7 @@ struct Sample {
 
 float absorbed(Medium here) {
   float below = max(kEndlessDb - 0.01 * here.echogenicity, 0.0);
-  float by_end = kEndAbsorption * below * below;  // sim/model/acoustic_volume.h
+  float by_end = kEndAbsorption * below * below;  // sim/tissue/acoustic_volume.h
   return (ABSORPTION == 1 ? here.absorption + by_end : by_end) * absorption_per_sample;
 }
 

@@ -9,11 +9,11 @@ namespace insonate {
 #define INSONATE_INT const int
 #endif
 
-// Coupling (sim/model/coupling.h), Hounsfield units.
+// Coupling (sim/tissue/coupling.h), Hounsfield units.
 INSONATE_REAL kCouplingTissueHu = -150.0, kCouplingAirHu = -301.0, kFreeGelShare = 1e-3;
 INSONATE_REAL kLeastGel_mm = 2e-5;  // beyond half the reflection length
 
-// Where the CT ends (sim/model/acoustic_volume.h): dB, and dB/(cm MHz) per square dB.
+// Where the CT ends (sim/tissue/acoustic_volume.h): dB, and dB/(cm MHz) per square dB.
 INSONATE_REAL kEndlessDb = -61.0, kEndAbsorption = 0.006;
 
 // The weakest echo that counts (sim/model/stages.h).

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/core/files.h"
-#include "sim/core/toml_table.h"
-#include "sim/core/toml_value.h"
+#include "sim/files/files.h"
+#include "sim/files/toml_table.h"
+#include "sim/files/toml_value.h"
 
 namespace insonate::view {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "scenarios/result_json.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;

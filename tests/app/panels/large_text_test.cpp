@@ -5,7 +5,7 @@
 #include "app/panels/pages/settings_page.h"
 #include "app/panels/scan/guide_layer.h"
 #include "app/panels/views/look_panel.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 using namespace insonate::ui;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 using namespace insonate::ui;

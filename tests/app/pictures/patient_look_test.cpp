@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/view/body/transfer_function_file.h"
 #include "tests/core/temporary_folder.h"
 

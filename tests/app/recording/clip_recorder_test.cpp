@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "app/recording/webm.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 using namespace insonate;

@@ -11,8 +11,8 @@
 
 #include "app/registration/live_session.h"
 #include "devices/live/steady_clock.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_body.h"

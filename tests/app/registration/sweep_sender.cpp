@@ -14,8 +14,8 @@
 #include <string>
 #include <thread>
 
-#include "sim/core/files.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/imaging/test_body.h"

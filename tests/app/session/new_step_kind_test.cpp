@@ -7,7 +7,7 @@
 #include "app/session/step_controls.h"
 #include "devices/mouse/mouse_tracker.h"
 #include "scenarios/steps/step_kinds.h"
-#include "sim/core/toml_table.h"
+#include "sim/files/toml_table.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;

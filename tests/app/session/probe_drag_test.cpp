@@ -9,7 +9,7 @@
 
 #include "app/session/session.h"
 #include "devices/mouse/mouse_tracker.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 #include "sim/view/body/line_of_sight.h"
 #include "tests/phantom/abdomen.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 using namespace insonate;
 

@@ -5,9 +5,9 @@
 #include "devices/registry.h"
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/result_json.h"
-#include "sim/core/digest.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/digest.h"
+#include "sim/files/files.h"
 #include "tests/app/session/tiny_session.h"
 #include "tests/core/temporary_folder.h"
 

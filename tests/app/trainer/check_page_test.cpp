@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 using namespace insonate;

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "scenarios/results/database/results_database.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;

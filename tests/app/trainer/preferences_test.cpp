@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 using namespace insonate;

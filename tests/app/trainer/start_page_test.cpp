@@ -6,8 +6,8 @@
 #include <chrono>
 #include <thread>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;

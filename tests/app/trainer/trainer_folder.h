@@ -7,7 +7,7 @@
 
 #include "app/trainer/trainer.h"
 #include "devices/sequence/sequence.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/volume/case.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"

@@ -5,7 +5,7 @@
 #include "app/trainer/trainer.h"
 #include "devices/calibration/calibration.h"
 #include "scenarios/result_json.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/app/trainer/trainer_folder.h"
 #include "tests/gl/test_context.h"
 

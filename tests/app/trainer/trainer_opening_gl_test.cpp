@@ -8,8 +8,8 @@
 
 #include "app/trainer/trainer.h"
 #include "devices/sequence/sequence.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/volume/volume_checks.h"
 #include "tests/app/trainer/trainer_folder.h"
 #include "tests/gl/test_context.h"

@@ -7,7 +7,7 @@
 #include "app/trainer/trainer.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/app/trainer/trainer_folder.h"
 #include "tests/gl/test_context.h"
 

@@ -8,7 +8,7 @@
 #include "devices/polhemus/polhemus_tracker.h"
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/devices/golden_reports.h"
 
 using namespace insonate;

@@ -12,8 +12,8 @@
 #include <filesystem>
 
 #include "devices/igtl/igtl_reader.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
+#include "sim/files/files.h"
 
 namespace insonate::igtl {
 namespace {

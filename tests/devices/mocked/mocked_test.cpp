@@ -14,7 +14,7 @@
 #include "devices/record/recording_files.h"
 #include "devices/replay/raw_replay.h"
 #include "devices/sequence/probe_samples.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/devices/numbered_reports.h"
 #include "tests/devices/test_samples.h"
 

@@ -9,9 +9,9 @@
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
 #include "devices/sequence/sequence_file.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/core/system_faults.h"
 #include "tests/core/temporary_folder.h"
 

@@ -6,9 +6,9 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/sequence.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 

@@ -11,8 +11,8 @@
 #include "devices/log_report.h"
 #include "devices/sequence/probe_samples.h"
 #include "devices/sequence/recorded_images.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 
 using namespace insonate;
 using Catch::Contains;

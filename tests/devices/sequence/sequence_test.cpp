@@ -8,7 +8,7 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "devices/synthetic/synthetic_tracker.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/devices/test_samples.h"
 
 using namespace insonate;

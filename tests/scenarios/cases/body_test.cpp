@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "scenarios/cases/import_case.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/core/temporary_folder.h"
 

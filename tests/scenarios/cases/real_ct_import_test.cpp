@@ -11,7 +11,7 @@
 #include "scenarios/cases/plausibility.h"
 #include "scenarios/cases/suggested_views.h"
 #include "scenarios/metrics/view_meter.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 
 using namespace insonate;
 

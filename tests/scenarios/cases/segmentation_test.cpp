@@ -9,7 +9,7 @@
 #include "scenarios/cases/nifti_label_table.h"
 #include "scenarios/cases/plausibility.h"
 #include "sim/core/input_error.h"
-#include "sim/model/tissue.h"
+#include "sim/tissue/tissue.h"
 #include "tests/core/system_faults.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/scenarios/cases/labelled_files.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "scenarios/scenario.h"
-#include "sim/core/files.h"
 #include "sim/core/hash.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/tiny_case.h"
 
 using namespace insonate;

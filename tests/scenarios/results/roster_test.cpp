@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/made_attempt.h"
 
 using namespace insonate;

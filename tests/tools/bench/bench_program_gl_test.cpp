@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/run_program.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/model/quality.h"
 #include "tests/scenarios/tiny_case.h"
 #include "tools/bench/converged.h"

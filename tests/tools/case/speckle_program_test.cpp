@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/tools/case/case_workplace.h"
 
 using namespace insonate;

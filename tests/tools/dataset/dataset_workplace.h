@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/run_program.h"
 #include "tests/tools/dataset/study_folder.h"
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <thread>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/tools/dataset/dataset_workplace.h"
 
 using namespace insonate;

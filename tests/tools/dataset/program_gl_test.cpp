@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/tools/dataset/dataset_workplace.h"
 #include "tools/dataset/shard_file.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "sim/core/input_error.h"
-#include "sim/model/skin_contact.h"
+#include "sim/tissue/skin_contact.h"
 #include "sim/truth/picture_truth.h"
 #include "tests/tools/dataset/study_folder.h"
 #include "tools/dataset/dataset_image.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/temporary_folder.h"
 
 namespace insonate::test {

@@ -16,7 +16,7 @@
 #include "sim/alignment/find_fan.h"
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
-#include "sim/core/read_png.h"
+#include "sim/files/png.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/volume/dicom_files.h"
 #include "tools/register/read_sweep.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 
 namespace insonate::test {
 namespace {

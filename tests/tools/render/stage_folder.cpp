@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <variant>
 
-#include "sim/model/acoustic_volume.h"
 #include "sim/probe/probe.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate::test {
 namespace {

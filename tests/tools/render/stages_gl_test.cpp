@@ -9,7 +9,6 @@
 
 #include "sim/core/hash.h"
 #include "sim/model/compounding.h"
-#include "sim/model/ct_noise.h"
 #include "sim/model/display_filter.h"
 #include "sim/model/mirror_image.h"
 #include "sim/model/noise.h"
@@ -18,6 +17,7 @@
 #include "sim/model/scatterers.h"
 #include "sim/model/waves.h"
 #include "sim/reference/wave_reference.h"
+#include "sim/tissue/ct_noise.h"
 #include "sim/volume/ct_reader.h"
 #include "sim/volume/open_case.h"
 #include "tests/imaging/stage_parity.h"

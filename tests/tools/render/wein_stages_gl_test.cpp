@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "sim/model/acoustic_volume.h"
 #include "sim/registration/wein_settings_file.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/registration/wein_parity.h"
 #include "tests/tools/render/stage_folder.h"

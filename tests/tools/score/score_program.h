@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/core/run_program.h"
 
 /// Runs insonate-score as a person does.

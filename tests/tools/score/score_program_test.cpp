@@ -10,7 +10,7 @@
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/results/trace_json.h"
 #include "scenarios/runner.h"
-#include "sim/core/digest.h"
+#include "sim/files/digest.h"
 #include "tests/devices/golden_reports.h"
 #include "tests/devices/raw_text.h"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <random>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "sim/view/body/transfer_function_file.h"
 #include "tests/core/temporary_folder.h"
 

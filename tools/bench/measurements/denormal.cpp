@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "tools/bench/commands.h"

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/core/files.h"
 #include "sim/core/text.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/acoustics/speckle_statistics.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/beam.h"

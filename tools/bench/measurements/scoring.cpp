@@ -5,7 +5,7 @@
 
 #include "devices/sequence/probe_samples.h"
 #include "scenarios/runner.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tools/bench/commands.h"
 #include "tools/bench/tables/statistics.h"
 #include "tools/cli/subject.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/registration/wein_simulator.h"

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "devices/sequence/probe_samples.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tools/bench/commands.h"
 #include "tools/bench/tables/statistics.h"
 

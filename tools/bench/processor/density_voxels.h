@@ -5,9 +5,9 @@
 
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
-#include "sim/model/acoustic_volume.h"
 #include "sim/probe/probe.h"
 #include "sim/registration/wein_settings.h"
+#include "sim/tissue/acoustic_volume.h"
 
 /// What both implementations of model W on the processor read. It is made once, before any image.
 namespace insonate::bench {

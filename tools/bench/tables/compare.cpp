@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <map>
 
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tools/bench/commands.h"
 #include "tools/bench/tables/statistics.h"
 

@@ -5,8 +5,8 @@
 
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/results/database/results_schema.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/core/system_faults.h"
 #include "tests/scenarios/results/made_attempt.h"
 

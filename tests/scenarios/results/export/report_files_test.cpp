@@ -10,7 +10,7 @@
 #include "scenarios/results/export/score_csv.h"
 #include "scenarios/results/export/xapi.h"
 #include "scenarios/results/measured.h"
-#include "sim/core/files.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/csv_cells.h"
 #include "tests/scenarios/results/made_attempt.h"
 

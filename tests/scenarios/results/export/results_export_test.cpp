@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "scenarios/results/measured.h"
-#include "sim/core/files.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
 #include "tests/scenarios/results/csv_cells.h"
 #include "tests/scenarios/results/made_attempt.h"
 
