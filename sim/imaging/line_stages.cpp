@@ -78,6 +78,7 @@ LineStages::LineStages(const ShaderSources& sources, const WorkDivision& divisio
       wave_beam_(sources, {"imaging/wave_beam.comp"}, beam_of({})),
       clutter_(sources, {"imaging/clutter.comp"}, with(division, clutter_of({}))),
       clutter_tail_(sources, {"imaging/clutter_tail.comp"}),
+      wall_clutter_(sources, {"imaging/wall_clutter.comp"}, with(division)),
       scatterers_(sources, division) {}
 
 void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Settings& settings) {
@@ -93,7 +94,8 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   pulsed_ = TexelBuffer();
   repeats_ = TexelBuffer();
   if (settings.waves) scatterers_.lay_out(lines_, most_planes);
-  mean_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
+  mean_echo_ = TexelBuffer(GL_RGBA32F, std::size_t(most_planes) * d);
+  layer_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }
 
@@ -217,6 +219,7 @@ void LineStages::beam(const Settings& settings) {
     repeats_.bind(2);
   }
   scan_.bind(0);
+  scan_.bind(3);
   beam_window_.bind_uniform(1);
   beam_at_depth_.bind(1);
   const glm::ivec2 in_fours(lines_.samples, (int(lines_.lines.size()) + 3) / 4);
@@ -231,10 +234,15 @@ void LineStages::beam(const Settings& settings) {
     beam_.dispatch(in_fours.x, in_fours.y, planes_);
   }
   if (!settings.clutter) return;
-  (settings.waves ? scan_ : echoes_).bind(0);
+  echoes_.bind(0);
+  scan_.bind(1);
   mean_echo_.bind_storage(0);
+  layer_echo_.bind_storage(1);
   clutter_.dispatch(lines_.samples, planes_);
   clutter_tail_.dispatch(planes_, 1);
+  if (!settings.waves) return;
+  layer_echo_.bind(0);
+  wall_clutter_.dispatch(lines_.samples, planes_);
 }
 
 SampleCounts LineStages::sample_counts() const {
@@ -244,8 +252,8 @@ SampleCounts LineStages::sample_counts() const {
 }
 
 std::vector<Program*> LineStages::programs() {
-  return {&traverse_, &mirror_image_, &reverberation_,       &beam_, &pulse_, &wave_beam_,
-          &clutter_,  &clutter_tail_, &scatterers_.program()};
+  return {&traverse_,  &mirror_image_, &reverberation_, &beam_,         &pulse_,
+          &wave_beam_, &clutter_,      &clutter_tail_,  &wall_clutter_, &scatterers_.program()};
 }
 
 }  // namespace insonate::gl

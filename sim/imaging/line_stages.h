@@ -64,9 +64,10 @@ public:
   const ScanLines& lines() const { return lines_; }  ///< per plane
   /// By sample: I, R, scatterers' echo (re, im); with waves I, scattered power, e (re, im), see sim/model/stages.h.
   const TexelBuffer& scan() const { return scan_; }
-  /// By sample: R, T, S, V; with waves f (re, im), 0, V.
+  /// By sample: R, T, S, V; with waves f (re, im), I^2, V.
   const TexelBuffer& echoes() const { return echoes_; }
-  /// By plane and depth: mean of T S, with waves of the scattered power, with its tail; only with clutter.
+  /// By plane and depth: mean of T S, with waves of the scattered power, with its tail; H and H/J (noise.h), 0 without
+  /// waves. Only with clutter.
   const TexelBuffer& mean_echo() const { return mean_echo_; }
   /// Returns the counts since restart_counts(). Blocks until the device has finished.
   SampleCounts sample_counts() const;
@@ -86,7 +87,7 @@ private:
   void dispatch(const Program& program, std::size_t groups) const;
 
   WorkDivision division_;
-  Program traverse_, mirror_image_, reverberation_, beam_, pulse_, wave_beam_, clutter_, clutter_tail_;
+  Program traverse_, mirror_image_, reverberation_, beam_, pulse_, wave_beam_, clutter_, clutter_tail_, wall_clutter_;
   ScattererStage scatterers_;
 
   ScanLines lines_;
@@ -101,7 +102,7 @@ private:
   bool beam_changed_ = true;
 
   TexelBuffer in_air_;  // by sample, as scan(): of a line that does not meet the body
-  TexelBuffer scan_, middle_, repeats_, pulsed_, echoes_, mean_echo_;
+  TexelBuffer scan_, middle_, repeats_, pulsed_, echoes_, mean_echo_, layer_echo_;
   Buffer counters_{sizeof(SampleCounts), nullptr}, uncounted_{sizeof(SampleCounts), nullptr};
 };
 

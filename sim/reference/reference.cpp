@@ -14,6 +14,7 @@
 #include "sim/model/refraction.h"
 #include "sim/model/scatterers.h"
 #include "sim/model/waves.h"
+#include "sim/reference/clutter_reference.h"
 #include "sim/reference/display_reference.h"
 #include "sim/reference/reverberation_reference.h"
 #include "sim/reference/wave_reference.h"
@@ -369,6 +370,7 @@ Stages<double> look_reference(const MediumField& field, const TissueTable& table
   const ImageGeometry geometry = image_geometry(probe, lines.r_max_mm, w, h);
   const Image<double> mean_echo = mean_echo_of(slice.scattered, lines.dr_mm()),
                       noise_of_lines = electronic_noise(lines, settings);
+  const WallClutter wall_clutter = wall_clutter_reference(stages, lines, settings);
   const ScanLines straight = scan_lines(probe, lines.r_max_mm, lines.samples);
   const Wave waves_of_receiver = noise_wave(straight, settings);
   const glm::ivec2 shift = noise_shift(patient_from_probe, look);
@@ -382,7 +384,8 @@ Stages<double> look_reference(const MediumField& field, const TissueTable& table
       if (!position) continue;
       const double sample = position->r_mm / lines.dr_mm() - 0.5;
       const auto here = [&](const Image<double>& image) { return bilinear(image, position->line, sample); };
-      const double noise = noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample);
+      const double noise = noise_level(settings) + clutter_share(settings) * bilinear(mean_echo, 0, sample) +
+                           wall_clutter.at(position->line, sample);
       stages.inside.at(x, y) = 1;
       if (settings.waves) {
         std::complex<double> wave(here(stages.wave_re), here(stages.wave_im));

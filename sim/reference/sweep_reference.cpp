@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/model/noise.h"
+#include "sim/reference/clutter_reference.h"
 #include "sim/reference/display_reference.h"
 
 namespace insonate {
@@ -27,12 +28,13 @@ double bilinear(const SweepValues& values, int plane, double line, double sample
 
 // Appends U (6) at each sample of a plane to the values.
 void append_fused(SweepValues& values, const Stages<double>& stages, const Image<std::complex<double>>& noise,
-                  int plane, double dr_mm, const Settings& settings) {
+                  int plane, const ScanLines& lines, const Settings& settings) {
   const auto scattered_at = [&](int line, int k) {
     return settings.waves ? stages.scattered.at(line, k)
                           : settings.blend * stages.transmission.at(line, k) * stages.speckle.at(line, k);
   };
-  const double tail = std::exp(-dr_mm / kClutterTail_mm);
+  const double tail = std::exp(-lines.dr_mm() / kClutterTail_mm);
+  const WallClutter wall_clutter = wall_clutter_reference(stages, lines, settings);
   std::vector<double> beside;  // the noise's mean at each depth
   double late = 0;
   for (int k = 0; k < values.samples; ++k) {
@@ -43,14 +45,15 @@ void append_fused(SweepValues& values, const Stages<double>& stages, const Image
   }
   for (int line = 0; line < values.lines; ++line)
     for (int k = 0; k < values.samples; ++k) {
+      const double power = beside[std::size_t(k)] + wall_clutter.at(line, k);
       const std::complex<double> of_receiver = noise.at(noise_line(line, plane, values.lines), k);
       double fused = stages.repeated.at(line, k);
       if (settings.waves)
         fused += std::norm(std::complex<double>(stages.wave_re.at(line, k), stages.wave_im.at(line, k)) +
-                           std::sqrt(beside[std::size_t(k)]) * of_receiver);
+                           std::sqrt(power) * of_receiver);
       else
         fused += stages.reflection_beam.at(line, k) * stages.speckle.at(line, k) + scattered_at(line, k) +
-                 beside[std::size_t(k)] * of_receiver.real();
+                 power * of_receiver.real();
       values.values.push_back(settings.waves ? heard(fused) : fused);
     }
 }
@@ -85,7 +88,7 @@ ReferenceVolume simulate_sweep_reference(const MediumField& field, const TissueT
   for (std::size_t i = 0; i < sweep.patient_from_plane.size(); ++i) {
     const Stages<double> stages =
         simulate_reference(field, table, sweep.probe, sweep.depth_mm, without_picture, sweep.patient_from_plane[i]);
-    append_fused(fused, stages, noise, int(i), lines.dr_mm(), settings);
+    append_fused(fused, stages, noise, int(i), lines, settings);
   }
 
   ReferenceVolume volume{convert_sweep_reference(sweep, fused, grid), {grid, {}}};

@@ -198,24 +198,58 @@ private:
   Field depth_mm_, soft_;
 };
 
-/// The pyramids of one kidney: where a voxel lies between sinus and capsule, and the nearest point of the sinus.
-class Pyramids {
-public:
-  Pyramids(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabels>& structure_of)
-      : grid_(labels.grid), from_sinus_(glm::ivec3(0)), from_capsule_(glm::ivec3(0)) {
-    glm::ivec3 least = grid_.size, most(-1);
+/// The box around a label's voxels with a margin, within the grid. Its size is 0 if there are none.
+struct LabelBox {
+  glm::ivec3 low{0}, size{0};
+
+  LabelBox(const Volume<std::uint8_t>& labels, int label) {
+    const glm::ivec3 grid = labels.grid.size;
+    glm::ivec3 least = grid, most(-1);
     std::size_t v = 0;
-    for (int z = 0; z < grid_.size.z; ++z)
-      for (int y = 0; y < grid_.size.y; ++y)
-        for (int x = 0; x < grid_.size.x; ++x, ++v)
+    for (int z = 0; z < grid.z; ++z)
+      for (int y = 0; y < grid.y; ++y)
+        for (int x = 0; x < grid.x; ++x, ++v)
           if (labels.voxels[v] == label) {
             least = glm::min(least, {x, y, z});
             most = glm::max(most, {x, y, z});
           }
     if (most.x < 0) return;
     constexpr int kMargin = 3;
-    low_ = glm::max(least - kMargin, 0);
-    const glm::ivec3 size = glm::min(most + kMargin, grid_.size - 1) - low_ + 1;
+    low = glm::max(least - kMargin, 0);
+    size = glm::min(most + kMargin, grid - 1) - low + 1;
+  }
+};
+
+/// How far the voxels of a sinus lie from the kidney's parenchyma, mm.
+class SinusRim {
+public:
+  SinusRim(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabels>& structure_of)
+      : box_(labels, label), from_parenchyma_(box_.size) {
+    Field parenchyma(box_.size);
+    for (int z = 0; z < box_.size.z; ++z)
+      for (int y = 0; y < box_.size.y; ++y)
+        for (int x = 0; x < box_.size.x; ++x) {
+          const Structure here = structure_of[labels.at(box_.low + glm::ivec3(x, y, z))];
+          parenchyma.at({x, y, z}) = here == Structure::kidney || here == Structure::medulla ? 1.0f : 0.0f;
+        }
+    from_parenchyma_ = distances_to(parenchyma, labels.grid.spacing);
+  }
+
+  float distance_mm(const glm::ivec3& voxel) const { return from_parenchyma_.at(voxel - box_.low); }
+
+private:
+  LabelBox box_;
+  Field from_parenchyma_;
+};
+
+/// The pyramids of one kidney: where a voxel lies between sinus and capsule, and the nearest point of the sinus.
+class Pyramids {
+public:
+  Pyramids(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabels>& structure_of)
+      : grid_(labels.grid), from_sinus_(glm::ivec3(0)), from_capsule_(glm::ivec3(0)) {
+    const LabelBox box(labels, label);
+    low_ = box.low;
+    const glm::ivec3 size = box.size;
     Field sinus(size), outside(size);
     for (int z = 0; z < size.z; ++z)
       for (int y = 0; y < size.y; ++y)
@@ -280,6 +314,7 @@ struct Places {
   std::vector<std::size_t> voxel;             ///< in the slice
   std::vector<float> x, y, z, depth, weight;  ///< patient mm; the structure's share
   std::vector<float> u, v, w, outwards;       ///< of kidneys alone: nearest point of the sinus, and Place::outwards
+  std::vector<float> from_parenchyma;         ///< of a sinus beside a kidney alone, mm
 
   std::size_t size() const { return x.size(); }
   void add(std::size_t at, const glm::vec3& p, float depth_mm, float share_of) {
@@ -311,7 +346,7 @@ public:
       case Structure::glandular:
         return times(2.2f, noise(2, p, 3.5f));
       case Structure::sinus:
-        return times(1.5f, noise(3, p, 3.5f));
+        return sinus(p);
       case Structure::mixed:
         return sum(times(2.5f, noise(4, p, 6)), times(1.5f, noise(5, p, 2.5f)));
       case Structure::organ:
@@ -369,6 +404,17 @@ private:
       const float wall = 9 * tube(portal[n], 1.8f, 1.6f * widened_), lumen = 8 * tube(portal[n], 0, widened_);
       db[n] = share(0.5f + fade[n]) * (wall - lumen) -
               share(0.5f + other_fade[n]) * 8 * tube(vein[n], 0, 2.0f * widened_) + 0.5f * mottle[n];
+    }
+    return db;
+  }
+
+  std::vector<float> sinus(const Places& p) const {
+    const std::vector<float> patches = noise(3, p, 5), grain = noise(60, p, 2.5f), uneven = noise(61, p, 6);
+    const std::vector<float> branch = from_lines(62, p, 11);
+    std::vector<float> db(p.size());
+    for (std::size_t n = 0; n < db.size(); ++n) {
+      db[n] = 2.5f * patches[n] + 1.5f * grain[n] - 9 * tube(branch[n], 0, 1.3f * widened_);
+      if (!p.from_parenchyma.empty()) db[n] -= 7 * (1 - share((p.from_parenchyma[n] + 2 * uneven[n]) / 5));
     }
     return db;
   }
@@ -503,10 +549,15 @@ std::vector<std::int16_t> tissue_structure_cdb(const Volume<std::int16_t>& ct, c
         if (found.exist()) pyramids[std::size_t(l)] = std::move(found);
       }
 
+  std::array<std::optional<SinusRim>, kLabels> rims;
+  if (!labels.empty())
+    for (int l = 1; l < kLabels; ++l)
+      if (structure_of[std::size_t(l)] == Structure::sinus) rims[std::size_t(l)].emplace(labels, l, structure_of);
+
   const std::size_t in_slice = std::size_t(grid.size.x) * std::size_t(grid.size.y);
   const auto fill_slice = [&](int z) {
     std::array<Places, kStructures> places;
-    Places with_pyramids;
+    Places with_pyramids, with_rim;
     const std::size_t first = std::size_t(z) * in_slice;
     for (std::size_t n = 0; n < in_slice; ++n) {
       const glm::ivec3 i(int(n % std::size_t(grid.size.x)), int(n / std::size_t(grid.size.x)), z);
@@ -523,6 +574,9 @@ std::vector<std::int16_t> tissue_structure_cdb(const Volume<std::int16_t>& ct, c
         with_pyramids.v.push_back(float(place.nearest_mm.y));
         with_pyramids.w.push_back(float(place.nearest_mm.z));
         with_pyramids.outwards.push_back(place.outwards);
+      } else if (has_tissue && rims[label]) {
+        with_rim.add(n, p, depth, 1);
+        with_rim.from_parenchyma.push_back(rims[label]->distance_mm(i));
       } else if (has_tissue) {
         places[std::size_t(structure_of[label])].add(n, p, depth, 1);
       } else {
@@ -543,6 +597,7 @@ std::vector<std::int16_t> tissue_structure_cdb(const Volume<std::int16_t>& ct, c
     };
     for (int s = 0; s < kStructures; ++s) add_all(Structure(s), places[std::size_t(s)]);
     add_all(Structure::kidney, with_pyramids);
+    add_all(Structure::sinus, with_rim);
     constexpr float kMost = float(kMostStructureDb);
     for (std::size_t n = 0; n < in_slice; ++n)
       cdb[first + n] = std::int16_t(std::lround(100 * std::clamp(db[n], -kMost, kMost)));

@@ -96,6 +96,15 @@ TEST_CASE("GLSL agrees with the reference: a 3D probe, every effect on") {
   check_against_reference(swept("curvilinear"), settings);
 }
 
+TEST_CASE("GLSL agrees with the reference: a 3D probe and clutter of the body wall alone") {
+  Settings settings = everything();
+  settings.waves = true;
+  settings.electronic_noise = false;
+  settings.clutter_db = -100;
+  settings.gain_db = 30;
+  check_against_reference(swept("curvilinear"), settings);
+}
+
 TEST_CASE("GLSL agrees with the reference: a 3D probe in the paper's own mode, its brightest voxel white") {
   check_against_reference(swept("phased"), of_the_paper());
 }

@@ -170,8 +170,9 @@ TEST_CASE("the lines of many planes hold what each plane's picture holds, with w
           heard += echoes.at(line, k)[0] != 0;
           differ += scan.at(line, k) != std::array{picture.intensity.at(line, k), picture.scattered.at(line, k),
                                                    picture.echo_re.at(line, k), picture.echo_im.at(line, k)};
-          differ += echoes.at(line, k) != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k), 0.0f,
-                                                     picture.repeated.at(line, k)};
+          const float intensity = picture.intensity.at(line, k);
+          differ += echoes.at(line, k) != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k),
+                                                     intensity * intensity, picture.repeated.at(line, k)};
         }
       CHECK(differ == 0);
       CHECK((heard > scan.width * scan.height / 4 || plane >= 9));

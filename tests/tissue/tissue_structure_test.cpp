@@ -239,6 +239,47 @@ TEST_CASE("a kidney with a sinus has pyramids around it, unless the case has a m
   CHECK(std::abs(mean_between(with_medulla, 11, 20) - mean_between(with_medulla, 24, 28)) < 0.2);
 }
 
+TEST_CASE("a sinus is uneven and fades towards the parenchyma, but not where it meets the fat of the hilum") {
+  Block body({80, 80, 80}, -100, 0);
+  body.labels = {body.ct.grid, std::vector<std::uint8_t>(body.ct.voxels.size(), 0)};
+  const auto from_centre = [](const glm::ivec3& i) { return glm::length(glm::dvec3(i) - 40.0); };
+  const auto each = [&](const auto& act) {
+    for (int k = 0; k < 80; ++k)
+      for (int j = 0; j < 80; ++j)
+        for (int i = 0; i < 80; ++i) act(glm::ivec3(i, j, k));
+  };
+  // Half a kidney: the sinus is open at i = 40.
+  each([&](const glm::ivec3& i) {
+    if (i.x >= 40) body.labels.at(i) = from_centre(i) < 18 ? 2 : from_centre(i) < 32 ? 1 : 0;
+  });
+  const auto of_sinus = [&](const char* parenchyma, const auto& where) {
+    const std::vector<std::string> tissue_of = {"", parenchyma, "kidney_sinus"};
+    const std::vector<std::int16_t> cdb = tissue_structure_cdb(body.ct, body.labels, tissue_of, shipped());
+    double sum = 0, squares = 0, count = 0;
+    each([&](const glm::ivec3& i) {
+      if (body.labels.at(i) != 2 || !where(i)) return;
+      const double db = cdb[body.ct.grid.offset(i)] / 100.0;
+      sum += db;
+      squares += db * db;
+      ++count;
+    });
+    return std::pair(sum / count, std::sqrt(squares / count - sum / count * sum / count));
+  };
+  const auto rim = [&](const glm::ivec3& i) { return from_centre(i) >= 16 && i.x > 46; };
+  const auto middle = [&](const glm::ivec3& i) { return from_centre(i) < 10 && i.x > 44; };
+  const auto hilum = [&](const glm::ivec3& i) { return i.x < 42 && from_centre(i) < 10; };
+  const auto anywhere = [](const glm::ivec3&) { return true; };
+  for (const char* parenchyma : {"kidney_cortex", "kidney_medulla"}) {
+    INFO(parenchyma);
+    CHECK(of_sinus(parenchyma, rim).first < of_sinus(parenchyma, middle).first - 3);
+    CHECK(std::abs(of_sinus(parenchyma, hilum).first - of_sinus(parenchyma, middle).first) < 1.5);
+    CHECK(std::abs(of_sinus(parenchyma, anywhere).first) < 0.05);
+    CHECK(of_sinus(parenchyma, middle).second > 2);
+  }
+  // Beside anything else it has no rim.
+  CHECK(std::abs(of_sinus("fat", rim).first - of_sinus("fat", middle).first) < 1.5);
+}
+
 TEST_CASE("the acoustic volume takes structure only when asked, and keeps densities") {
   const Block block({60, 60, 60}, 55, label_of("liver"));
   const AcousticVolume plain = make_acoustic_volume(block.ct, block.labels, kTissues, shipped()),

@@ -136,6 +136,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["noise_level"] = noise_level(scene.settings);
   text["clutter_share"] = clutter_share(scene.settings);
   text["clutter_tail_mm"] = kClutterTail_mm;
+  text["wall_clutter"] = {
+      {"wall_return", kWallReturn}, {"layer_share", kLayerShare}, {"least_layer_echo", kLeastLayerEcho}};
   text["reverberation"] = {{"least_round", kLeastRound},
                            {"least_from_face", kLeastFromFace},
                            {"least_reverberant", kLeastReverberant},

@@ -111,7 +111,8 @@ void write_noise(const fs::path& folder, const RenderedScene& scene, const Stage
       re.at(x, y) = float(n.real());
       im.at(x, y) = float(n.imag());
     }
-  const char* const content = "of mean square 1: added to f, times the root of noise_level + clutter_share M";
+  const char* const content =
+      "of mean square 1: added to f, times the root of noise_level + clutter_share M + the clutter of the body wall";
   write_as_picture(folder, "noise_re", re, content);
   write_as_picture(folder, "noise_im", im, content);
 }

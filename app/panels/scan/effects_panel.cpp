@@ -26,7 +26,7 @@ constexpr std::array kWords{
     Words{"face_reverberation", "A-lines", "Sound bounces between gas or bone and the probe's face."},
     Words{"mirror_image", "Mirror images", "Gas shows what lies before it once more behind it."},
     Words{"edge_shadow", "Edge shadows", "Round edges refract the sound, and dark lines run down from them."},
-    Words{"clutter", "Clutter", "Side lobes bring a little of all that is around into fluid and shadows."},
+    Words{"clutter", "Clutter", "Side lobes and layers of the body wall bring haze into fluid and shadows."},
     Words{"noise", "Noise", "The receiver's own noise, which shows where time gain is high."},
     Words{"two_way", "Two-way loss", "Echoes get weaker on their way back, too."},
     Words{"focus_mm", "Focus", "The depth at which the transmitted beam is narrowest."},

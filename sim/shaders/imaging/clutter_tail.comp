@@ -10,13 +10,14 @@ layout(local_size_x = 1) in;
 
 #include "shared/simulation_parameters.h"
 
-layout(std430, binding = 0) buffer MeanEcho { float mean_echo[]; };  // one row per plane: mean of T S; tail added
+layout(std430, binding = 0) buffer MeanEcho { vec4 mean_echo[]; };  // one row per plane: mean of T S, tail added; two of the
+                                                           // body wall
 
 void main() {
   int row = int(gl_GlobalInvocationID.x) * samples;
-  float mean = mean_echo[row];
+  float mean = mean_echo[row].x;
   for (int k = row + 1; k < row + samples; ++k) {
-    mean = mix(mean_echo[k], mean, clutter_kept);
-    mean_echo[k] = mean;
+    mean = mix(mean_echo[k].x, mean, clutter_kept);
+    mean_echo[k].x = mean;
   }
 }

@@ -19,10 +19,10 @@ layout(local_size_x = 64, local_size_y = 1) in;
 #include "shared/least_echo.glsl"
 #include "shared/fan_blocks.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;           // one row per line: R, T, S, V; with WAVES f, 0, V
+layout(binding = 0) uniform samplerBuffer echoes;           // one row per line: R, T, S, V; with WAVES f, I^2, V
 layout(binding = 1) uniform samplerBuffer line_and_sample;  // per pixel; line below -1 outside the fan
 layout(binding = 2) uniform samplerBuffer noise;            // per pixel, with mean 1; with WAVES complex
-layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean echo over the lines, with its tail
+layout(binding = 3) uniform samplerBuffer mean_echo;        // per sample: mean echo over the lines, with its tail, H, H/J
 #if LOOKS == 1
 layout(std430, binding = 0) writeonly buffer Picture { vec2 picture[]; };  // X, S
 #else
@@ -31,13 +31,14 @@ layout(std430, binding = 0) writeonly buffer Picture { float picture[]; };  // U
 #endif
 layout(std430, binding = 1) writeonly buffer Sharp { SMOOTHED sharp[]; };  // R, T where smoothed; -1 outside the fan
 
-// Returns the noise's mean at a place along the lines: the electronic noise and, with CLUTTER, what side lobes bring.
-float noise_at(float sample_position) {
+// Returns the noise's mean at a place along the lines: the electronic noise and, with CLUTTER, what side
+// lobes and, with WAVES, the body wall bring.
+float noise_at(float sample_position, float arriving) {
 #if CLUTTER == 1
   float position = clamp(sample_position, 0.0, float(samples - 1));
   int low = int(position), high = min(low + 1, samples - 1);
-  float mean = mix(texelFetch(mean_echo, low).x, texelFetch(mean_echo, high).x, position - float(low));
-  return noise_level + clutter_share * (WAVES == 1 ? 1.0 : blend) * mean;
+  vec4 mean = mix(texelFetch(mean_echo, low), texelFetch(mean_echo, high), position - float(low));
+  return noise_level + clutter_share * (WAVES == 1 ? 1.0 : blend) * mean.x + min(mean.y, mean.z * arriving);
 #else
   return noise_level;
 #endif
@@ -61,7 +62,7 @@ void convert(ivec2 pixel) {
 #if WAVES == 1
 #if NOISE == 1
   ivec2 shifted = (pixel + ivec2(noise_shift_x, noise_shift_y)) % ivec2(width, height);
-  value.xy += sqrt(noise_at(place.y)) * texelFetch(noise, index_of(shifted)).xy;
+  value.xy += sqrt(noise_at(place.y, value.z)) * texelFetch(noise, index_of(shifted)).xy;
 #endif
   float echo = dot(value.xy, value.xy) + value.w;
   echo = inside && echo > kLeastEcho ? echo : 0.0;
@@ -79,7 +80,7 @@ void convert(ivec2 pixel) {
   rest += value.z * blend * value.y;
 #endif
 #if NOISE == 1
-  rest += noise_at(place.y) * texelFetch(noise, index_of(pixel)).x;
+  rest += noise_at(place.y, 0.0) * texelFetch(noise, index_of(pixel)).x;
 #endif
   picture[index_of(pixel)] = vec2(rest, value.z);
 #if REFLECTION_SMOOTHED == 1 || TRANSMISSION_SMOOTHED == 1

@@ -12,9 +12,9 @@ layout(local_size_x = 64) in;
 #include "shared/simulation_parameters.h"
 #include "shared/least_echo.glsl"
 
-layout(binding = 0) uniform samplerBuffer echoes;     // one row per line, plane by plane: R, T, S, V; with WAVES f, 0, V
+layout(binding = 0) uniform samplerBuffer echoes;     // one row per line, plane by plane: R, T, S, V; with WAVES f, I^2, V
 layout(binding = 1) uniform samplerBuffer noise;      // one row per line of a plane, with mean 1; with WAVES complex
-layout(binding = 2) uniform samplerBuffer mean_echo;  // one row per plane: mean echo over the lines, with its tail
+layout(binding = 2) uniform samplerBuffer mean_echo;  // one row per plane: mean echo over the lines, with its tail, H, H/J
 layout(std430, binding = 0) writeonly buffer Fused { float fused[]; };  // U, in the order of `echoes`
 
 void main() {
@@ -28,7 +28,8 @@ void main() {
   int noise_line = (line + (first_plane + plane) * noise_step) % lines;
   float mean = noise_level;
 #if CLUTTER == 1
-  mean += clutter_share * (WAVES == 1 ? 1.0 : blend) * texelFetch(mean_echo, plane * samples + k).x;
+  vec4 clutter = texelFetch(mean_echo, plane * samples + k);
+  mean += clutter_share * (WAVES == 1 ? 1.0 : blend) * clutter.x + min(clutter.y, clutter.z * value.z);
 #endif
   vec2 of_receiver = texelFetch(noise, noise_line * samples + k).xy;
   echo += mean * of_receiver.x;

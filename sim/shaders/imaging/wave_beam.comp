@@ -4,7 +4,7 @@
 //
 // At the array's ends, the part of the aperture that is missing sends and receives nothing.
 //
-// Reads the echo behind the pulse, the table by depth and, with REVERBERATION, V. Writes f and V.
+// Reads the echo behind the pulse, the table by depth, the scan and, with REVERBERATION, V. Writes f, I^2 and V.
 // Dispatch: samples x lines / 4 x planes invocations, in work groups of 64 x 1 x 1. An invocation computes one sample
 // of four neighbouring lines. Their apertures overlap, so it reads each value once for all four.
 
@@ -16,7 +16,8 @@ layout(binding = 0) uniform samplerBuffer pulsed;    // one row per line: re, im
 layout(binding = 1) uniform samplerBuffer at_depth;  // per sample: 1 / the sum of the weights, radius of the focused
                                                      // beam in lines, exponent of its Gaussian
 layout(binding = 2) uniform samplerBuffer repeats;   // one row per line: V before the window, with REVERBERATION
-layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // one row per line: f (re, im), 0, V
+layout(binding = 3) uniform samplerBuffer scan;      // one row per line: I, scattered power, e (re, im)
+layout(std430, binding = 0) writeonly buffer Echoes { vec4 echoes[]; };  // one row per line: f (re, im), I^2, V
 
 #include "shared/aperture.glsl"
 
@@ -47,6 +48,9 @@ void main() {
   place_aperture(here);
   for (int j = -radius; j <= radius + 3; ++j) add(first, j, k);
   for (int i = 0; i < 4; ++i)
-    if (first + i < lines)
-      echoes[plane_row + (first + i) * samples + k] = vec4(re[i], im[i], 0.0, repeated[i]) * here.x;
+    if (first + i < lines) {
+      int at = plane_row + (first + i) * samples + k;
+      float arriving = texelFetch(scan, at).x;
+      echoes[at] = vec4(vec3(re[i], im[i], repeated[i]) * here.x, arriving * arriving).xywz;
+    }
 }
