@@ -235,16 +235,17 @@ TEST_CASE("a picture's error counts what is displayed: in dB within the dynamic 
       }
     return displayed(stages, probe, 60, settings);
   };
+  const double range_db = settings.dynamic_range_db;
   const Display converged = picture(80, 60, -20);
-  CHECK(error_of(converged, converged, 55).db == 0);
+  CHECK(error_of(converged, converged, range_db).db == 0);
   for (const auto& [w, h] : {std::pair(80, 60), std::pair(31, 47)}) {
     CAPTURE(w, h);
-    const DisplayError error = error_of(picture(w, h, -31), converged, 55);
+    const DisplayError error = error_of(picture(w, h, -31), converged, range_db);
     CHECK(error.db == Approx(11));
-    CHECK(error.grey == Approx(11 * 255 / 55.0));
+    CHECK(error.grey == Approx(11 * 255 / range_db));
   }
   // Below black all is alike.
-  CHECK(error_of(picture(80, 60, -70), converged, 55).db == Approx(35));
-  CHECK(error_of(converged, picture(80, 60, -70), 55).db == 0);
-  CHECK(error_of(picture(80, 60, 3), picture(80, 60, 1), 55).db == 0);
+  CHECK(error_of(picture(80, 60, -70), converged, range_db).db == Approx(range_db - 20));
+  CHECK(error_of(converged, picture(80, 60, -70), range_db).db == 0);
+  CHECK(error_of(picture(80, 60, 3), picture(80, 60, 1), range_db).db == 0);
 }
