@@ -81,18 +81,18 @@ inline constexpr double kClutterTail_mm = 5;  ///< estimate: 0.9 dB per mm, fast
 /// Ultrasound in Medicine and Biology 40, 2014: layers of fat and connective tissue cause it). With f of waves.h and
 /// means over the lines of the plane at sample k:
 ///
-///     e = |f|^2,  c = kLayerShare I^2
-///     E(k) = max(mean of e / (1 + (e/c)^2) - kLeastLayerEcho, 0)        0 of lines with c up to kLeastEcho
+///     E(k) = max(mean of min(|f|^2, kLayerShare I^2) - kLeastLayerEcho, 0)
 ///     P(n) = sum_i E(i) E(n - i)
 ///     H(k) = kWallReturn (dr/l) (P(k - 1) + P(k)) / 2
 ///     J(k) = mean of I^2
 ///
 /// The power min(H, I^2 H/J) is added to the noise's, and 0 where J is up to kLeastEcho. Both values of a depth and I^2
-/// are interpolated at pixels. Echoes from samples i and j add up to the way of one between samples i + j and i + j
-/// + 1. I^2/J keeps the haze out of shadows: sound that is sent in again does not get there either.
+/// are interpolated at pixels. The ways of echoes from samples i and j add up to that of one between samples i + j and
+/// i + j + 1. I^2/J keeps the haze out of shadows: sound that is sent in again does not get there either.
 ///
-/// - kLayerShare: an interface of fat and muscle reflects ((1.70 - 1.38) / (1.70 + 1.38))^2 = 0.011 at most
-///   (tissues.toml). What reflects more is bone or gas, whose repeats run along the line (reverberation.h).
+/// - kLayerShare is an estimate: an interface of fat and muscle reflects ((1.65 - 1.38) / (1.65 + 1.38))^2 = 0.008
+///   (tissues.toml), and sheets thinner than the pulse return less. Bone and gas, whose strong repeats run along the
+///   line (reverberation.h), count as such a layer.
 /// - kWallReturn is an estimate. It gives -17 dB at the front of the built-in patient's bladder, relative to the
 ///   scatterers beside it. Lediju et al. (Ultrasonic Imaging 30, 2008) measured 0 to -30 dB in five bladders, relative
 ///   to the wall's mean.

@@ -21,9 +21,9 @@ WallClutter wall_clutter_reference(const Stages<double>& stages, const ScanLines
     double sum = 0;
     for (int line = 0; line < n; ++line) {
       const double echo = std::pow(stages.wave_re.at(line, k), 2) + std::pow(stages.wave_im.at(line, k), 2);
-      const double squared = heard(std::pow(stages.intensity.at(line, k), 2)), least = kLayerShare * squared;
+      const double squared = heard(std::pow(stages.intensity.at(line, k), 2));
       clutter.arriving.at(line, k) = squared;
-      if (least > kLeastEcho) sum += echo / (1 + std::pow(echo / least, 2));
+      sum += std::min(echo, kLayerShare * squared);
     }
     layers.push_back(std::max(sum / n - kLeastLayerEcho, 0.0));
   }

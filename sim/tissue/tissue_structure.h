@@ -23,11 +23,13 @@
 ///     even       0.4 N(p / 2 mm)
 ///     medulla    0.4 N(p / 2 mm)
 ///     glandular  2.2 N(p / 3.5 mm)
-///     sinus      2.5 N(p / 5 mm) + 1.5 N(p / 2.5 mm) - 9 tube(r'', 0, 1.3 mm) - 7 (1 - share((f + 2 mm N(p / 6 mm)) /
-///     5 mm)) mixed      2.5 N(p / 6 mm) + 1.5 N(p / 2.5 mm) organ      k (9 tube(r, 1.8 mm, 1.6 mm) - 8 tube(r, 0, 1
-///     mm)) - 8 k' tube(r', 0, 2 mm) + 0.5 N(p / 8 mm) muscle     11 m (sheet(N(q(16, 30, 3.2)), 0.7) - 0.35) + 2
-///     N(q(5, 30, 1.7)) fat        11 m (sheet(N(q(16, 16, 4)), 0.65) - 0.35) + 0.7 N(p / 5 mm) kidney     -7 share(2
-///     N(s / 9 mm) + 0.6) share(6 (0.72 - t)) + 0.4 N(p / 2 mm)
+///     sinus      2.5 N(p / 5 mm) + 1.5 N(p / 2.5 mm) - 9 tube(r'', 0, 1.3 mm)
+///                - 7 (1 - share((f + 2 mm N(p / 6 mm)) / 5 mm))
+///     mixed      2.5 N(p / 6 mm) + 1.5 N(p / 2.5 mm)
+///     organ      k (9 tube(r, 1.8 mm, 1.6 mm) - 8 tube(r, 0, 1 mm)) - 8 k' tube(r', 0, 2 mm) + 0.5 N(p / 8 mm)
+///     muscle     11 m (sheet(N(q(16, 30, 3.2)), 0.7) - 0.35) + 2 N(q(5, 30, 1.7))
+///     fat        11 m (sheet(N(q(16, 16, 4)), 0.65) - 0.35) + 0.7 N(p / 5 mm)
+///     kidney     -7 share(2 N(s / 9 mm) + 0.6) share(6 (0.72 - t)) + 0.4 N(p / 2 mm)
 ///
 /// - organ: portal tracts are the lines along which two noises of a grain g are both zero, g = 14 mm: r = g (N_1^2 +
 ///   N_2^2)^(1/2) / 2.6, where 2.6 is the noise's mean slope at a zero. They are walls around a lumen. Small hepatic

@@ -40,7 +40,7 @@ TEST_CASE("two layers return to the face and are met again at the sums of their 
     scan.stages.wave_re.at(line, 10) = 0.003;
     scan.stages.wave_im.at(line, 30) = 0.002;
   }
-  // Samples lie at (k + 1/2) 0.3 mm. Echoes of up to 1e-5 of c = 0.01 / 4 count in full, to 1.3e-5.
+  // Samples lie at (k + 1/2) 0.3 mm.
   const WallClutter clutter = scan.clutter();
   const double a = 9e-6, b = 4e-6, weight = kWallReturn * 0.5 / 2;
   for (int k = 0; k < kSamples; ++k) {
@@ -54,13 +54,13 @@ TEST_CASE("two layers return to the face and are met again at the sums of their 
   }
 }
 
-TEST_CASE("gas and bone are no layers of the wall, and the haze does not get into shadows") {
+TEST_CASE("gas and bone count as a layer of fat and muscle, and the haze does not get into shadows") {
   Lines scan;
   for (int line = 0; line < kLines; ++line) scan.stages.wave_re.at(line, 10) = 0.003;
   const double of_wall = scan.clutter().at(0, 20);
-  scan.stages.wave_re.at(4, 30) = 0.5;  // c / e of gas is 0.01
+  scan.stages.wave_re.at(4, 30) = 0.5;
   const WallClutter with_gas = scan.clutter();
-  const double of_gas = 0.25 * 1e-4 / kLines;  // instead of 0.25 / kLines
+  const double of_gas = kLayerShare * 0.25 / kLines;  // instead of 0.25 / kLines
   CHECK(with_gas.at(0, 40) == Approx(kWallReturn * 0.5 * 9e-6 * of_gas).epsilon(1e-3));
   for (int k = 31; k < kSamples; ++k) scan.stages.intensity.at(4, k) = 0.005;  // 40 dB less
   scan.stages.wave_re.at(4, 30) = 0;

@@ -26,8 +26,7 @@ void main() {
 #if WAVES == 1
     sum += texelFetch(scan, at).y;
     arriving += value.z;
-    float most = kLayerShare * value.z, echo = dot(value.xy, value.xy);
-    if (most > kLeastEcho) of_layers += echo / (1.0 + echo / most * (echo / most));
+    of_layers += min(dot(value.xy, value.xy), kLayerShare * value.z);
 #else
     sum += value.y * value.z;
 #endif

@@ -27,7 +27,7 @@ INSONATE_REAL kLeastRound = 1e-3, kLeastFromFace = 1e-2, kLeastReverberant = 1e-
 INSONATE_INT kMostRepeats = 16, kMostReflectors = 64;
 
 // Clutter from the body wall (sim/model/noise.h).
-INSONATE_REAL kWallReturn = 0.4, kLayerShare = 0.01, kLeastLayerEcho = 1e-18;
+INSONATE_REAL kWallReturn = 0.4, kLayerShare = 0.003, kLeastLayerEcho = 1e-18;
 
 // Mirror images (sim/model/mirror_image.h).
 INSONATE_REAL kLeastMirror = 0.6, kFullMirror = 0.9, kMostMirrored = 3.0, kOwnPlace = 1e-2, kLeastOfFace = 1e-3;
