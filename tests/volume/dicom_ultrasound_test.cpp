@@ -151,6 +151,8 @@ TEST_CASE("DICOM files that are not clips of ultrasound are refused in a sentenc
     INFO(left << " of " << size << " bytes");
     place.refused("");
   }
+  place.folder.put("clip.dcm", "This is a text.");
+  place.refused(damaged);
   fs::remove(place.file);
   place.refused("the file cannot be read; check its name");
 }
