@@ -145,7 +145,8 @@ TEST_CASE("a mask leaves pixels out") {
   recorded.record(usual_matrix());
   const auto unknown = [&] {
     std::size_t count = 0;
-    for (const float pixel : read_sweep(recorded.input).sweep.images[0].grey.pixels) count += std::isnan(pixel);
+    const ReadSweep read = read_sweep(recorded.input);
+    for (const float pixel : read.sweep.images[0].grey.pixels) count += std::isnan(pixel);
     return count;
   };
   const std::size_t before = unknown();
