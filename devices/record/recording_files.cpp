@@ -93,7 +93,9 @@ void copy_lines(const std::filesystem::path& working, std::size_t count, std::of
   bool there = lines.next();
   for (std::size_t i = 0; i < count && (there = there && lines.next()); ++i)
     if (!lines.line().starts_with(kFrameEnd)) to << lines.line() << '\n';
-  if (!there) throw InputError(working.string(), "", "it has changed while it was read", "try again");
+  if (!there)
+    throw InputError(working.string(), "", "it cannot be read again, or has changed meanwhile",
+                     "close other programs, and try again");
 }
 
 /// Returns the last bytes of a zlib stream that is cut at the end of a picture: an empty last block, and the checksum.

@@ -146,8 +146,8 @@ std::string decoded(const fs::path& file, const std::vector<std::size_t>& number
   if ((!is_ybr && !is_rgb && !is_palette && shown != Photometric::MONOCHROME2) || samples != (is_ybr || is_rgb ? 3 : 1))
     refuse_kind("in " + std::string(Photometric::GetPIString(shown)));
   std::array<char, 4 * 256> palette{};  // red, green, blue, and one that is not used
-  if (is_palette && !image.GetLUT().GetBufferAsRGBA(reinterpret_cast<unsigned char*>(palette.data())))
-    refuse_as_damaged(file);
+  // GDCM reads no such image without its palette, and a palette for 8 bits always has 256 colours.
+  if (is_palette) image.GetLUT().GetBufferAsRGBA(reinterpret_cast<unsigned char*>(palette.data()));
   const std::size_t of_image = std::size_t(clip.width) * std::size_t(clip.height);
   if (const auto& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax(); !syntax.IsEncapsulated())
     check_raw_pixels(file, of_image * samples * clip.frames, syntax == gdcm::TransferSyntax::ExplicitVRBigEndian);

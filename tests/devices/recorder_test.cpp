@@ -265,6 +265,28 @@ TEST_CASE("pictures that cannot be read as far as their size promises are refuse
   CHECK_FALSE(fs::exists(file));
 }
 
+TEST_CASE("what is whole of a recording stays if its file cannot be made") {
+  const Folder folder;
+  const fs::path file = folder.path / "scan.igs.mha";
+  // A file beside it with a longer name cannot be made: names have at most 255 bytes.
+  const fs::path long_name = folder.path / (std::string(232, 's') + ".igs.mha");
+  record_and_be_killed(file, hand(1), 10, false);
+  fs::copy_file(working_file(file), working_file(long_name));
+  CHECK_THROWS_WITH(recover_recording(long_name),
+                    Catch::Contains("s.igs.mha: it cannot be written (File name too long); check the folder's"));
+  CHECK(fs::exists(working_file(long_name)));
+  {
+    // The recording and the new file can be opened, but not the recording once more.
+    const NoFilesToOpen limit(2);
+    CHECK_THROWS_WITH(
+        recover_recording(file),
+        Catch::Contains("scan.igs.mha.recording: it cannot be read again, or has changed meanwhile; close "
+                        "other programs, and try again."));
+  }
+  CHECK_FALSE(fs::exists(file));
+  CHECK(recover_recording(file) == 10);
+}
+
 TEST_CASE("a program that is only just dying is waited for") {
   const Folder folder;
   const fs::path file = folder.path / "scan.igs.mha";

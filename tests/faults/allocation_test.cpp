@@ -15,6 +15,7 @@
 #include "devices/calibration/setup_input.h"
 #include "devices/replay/raw_replay.h"
 #include "devices/sequence/probe_samples.h"
+#include "devices/sequence/recorded_images.h"
 #include "devices/sequence/sequence.h"
 #include "devices/tracker_uri.h"
 #include "scenarios/action.h"
@@ -269,6 +270,26 @@ TEST_CASE("readers of recordings outlive a failure at each allocation") {
           return double(
               parse_actions("depth 120; caliper 1 -10.5 40 12 41; answer :a%20stone", "scan", "frame 1").size());
         }) >= 0);
+}
+
+TEST_CASE("an image that the memory has no room for is refused in a sentence, and read once there is room") {
+  const Folder folder;
+  const std::size_t side = 1024;
+  const fs::path file = folder.put(
+      "scan.igs.mha",
+      "ObjectType = Image\nNDims = 3\nDimSize = 1024 1024 1\nElementType = MET_UCHAR\n"
+      "Seq_Frame0000_ProbeToTrackerTransform = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n"
+      "Seq_Frame0000_ProbeToTrackerTransformStatus = OK\nSeq_Frame0000_Timestamp = 0\nElementDataFile = LOCAL\n" +
+          std::string(side * side, 'x'));
+  const RecordedScan scan = read_recorded_scan(file);
+  REQUIRE(scan.images);
+  ImageReader reader(*scan.images);
+  largest_block = side * side - 1;
+  CHECK_THROWS_WITH(reader.grey(0),
+                    Catch::Contains("scan.igs.mha: image data: there is not enough memory for one image "
+                                    "of 1048576 bytes; close other programs"));
+  largest_block = std::numeric_limits<std::size_t>::max();
+  CHECK(reader.grey(0).pixels[7] == 'x');
 }
 
 TEST_CASE("a volume that the memory has no room for is refused in a sentence") {

@@ -76,6 +76,12 @@ TEST_CASE("a write that fails leaves the old file and nothing beside it") {
   CHECK_THROWS_WITH(write_file(file.parent_path(), "in the place of a folder"),
                     Catch::Contains("deep: it cannot be written (Is a directory); name a file"));
   CHECK(entries(folder.path) == 1);
+  {
+    const NoFilesToOpen limit;
+    CHECK_THROWS_WITH(write_file(file, "newer"), Catch::Contains("result.txt: it cannot be written (Too many open "
+                                                                 "files); check the folder's permissions"));
+  }
+  CHECK(read_file(file) == "new");
 }
 
 TEST_CASE("a program without its assets says so, and how to name them") {

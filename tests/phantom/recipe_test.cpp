@@ -318,6 +318,15 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
 )";
   const std::string stem = R"({ name = "stem", kind = "tube", points = [[0, 0, 0, 1], [0, 0, 9, 1]] },
     { name = "h", kind = "half_space", point = [0, 0, 0], normal = [0, 0, 1] }, )";
+  const auto changed = [](const std::string& what, const std::string& by) {
+    std::string text = small_recipe("");
+    return text.replace(text.find(what), what.size(), by);
+  };
+  std::string more_labels;
+  for (int n = 0; n < 253; ++n)
+    more_labels += "  { name = \"l" + std::to_string(n) + "\", tissue = \"fat\", hu = 1 },\n";
+  std::string no_labels = small_recipe("");
+  no_labels.erase(no_labels.find("labels = ["), no_labels.find("shapes = [") - no_labels.find("labels = ["));
   struct Bad {
     std::string text;
     std::vector<std::string> said;  // what the sentence has to hold
@@ -406,6 +415,18 @@ TEST_CASE("a recipe that cannot be used is refused with its line and a way out")
            R"({ name = "a", kind = "copy", of = "all", septa = { hu = 9, apart_mm = 2, along_mm = 9, layers_of = "all" } },)"),
        {"'septa' is unknown"}},
       {small_recipe(R"({ name = "a", kind = "shell", of = "all", inner_mm = 2, outer_mm = 1 },)"), {"'outer_mm' is 1"}},
+      {small_recipe(R"({ name = "a", kind = "loft", sections = [[0, 0, 0, 1, 0.1, 1], [1, 0, 0, 1, 1, 1]] },)"),
+       {"line 13", "a section's half width, front or back is below 0.2 mm; make it wider"}},
+      {no_labels, {"there are no labels; list at least one"}},
+      {changed("name = \"organ\"", "name = \"fat\""), {"line 8", "there are two labels 'fat'; rename one"}},
+      {changed("labels = [\n", "labels = [\n" + more_labels),
+       {"line 262", "there are more than 255 labels; join some"}},
+      {changed(", label = \"fat\"", ""), {"no shape has a label, so nothing would be drawn; add a shape"}},
+      {small_recipe("", "landmarks = [{ name = \"p\", at = [0, 0, 0] }, { name = \"p\", at = [1, 0, 0] }]\n"),
+       {"line 15", "there are two landmarks 'p'; rename one"}},
+      {small_recipe("", point + view + "aim = \"p\", from = [9, 0, 0], marker = [0, 1, 0] },\n" + view.substr(9) +
+                            "aim = \"p\", from = [9, 0, 0], marker = [0, 1, 0] }]\n"),
+       {"line 17", "there are two views 'v'; rename one"}},
       {small_recipe("", "frames = [{ name = \"f\", at = [0, 0, 0] }, { name = \"f\", at = [0, 0, 0] }]\n"),
        {"two frames 'f'"}},
       {small_recipe("", "landmarks = 3\n"), {"not a list of tables"}},

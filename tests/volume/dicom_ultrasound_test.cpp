@@ -123,7 +123,25 @@ TEST_CASE("DICOM files that are not clips of ultrasound are refused in a sentenc
   place.refused("its pixels are in MONOCHROME1");
   write_dicom_clip(place.file, place.clip);
   set_tag(place.file, 0x0028, 0x0100, std::string("\x10\0", 2));
-  place.refused("");
+  place.refused("its pixels are 16 bits large, which is not read here; export the clip as RGB or in grey, with 8 bits");
+  const std::string damaged = "the DICOM file is damaged or cut off; export the clip again";
+  write_dicom_clip(place.file, place.clip);
+  remove_tag(place.file, 0x7fe0, 0x0010);
+  place.refused(damaged);
+  place.clip.coding = DicomCoding::rle;
+  write_dicom_clip(place.file, place.clip);
+  set_tag(place.file, 0x0028, 0x0008, "4");
+  place.refused(damaged);
+  // More images than memory holds.
+  set_tag(place.file, 0x0028, 0x0008, "99999");
+  for (const std::uint16_t side : {0x0010, 0x0011}) set_tag(place.file, 0x0028, side, std::string("\0\x20", 2));
+  place.refused(damaged);
+  place.clip.coding = DicomCoding::raw;
+  place.clip.colours = DicomColours::palette;
+  write_dicom_clip(place.file, place.clip);
+  for (const std::uint16_t colour : {0x1201, 0x1202, 0x1203}) remove_tag(place.file, 0x0028, colour);
+  place.refused(damaged);
+  place.clip.colours = DicomColours::grey;
   // Every cut is noticed.
   write_dicom_clip(place.file, place.clip);
   const auto size = fs::file_size(place.file);
@@ -133,6 +151,8 @@ TEST_CASE("DICOM files that are not clips of ultrasound are refused in a sentenc
     INFO(left << " of " << size << " bytes");
     place.refused("");
   }
+  place.folder.put("clip.dcm", "This is a text.");
+  place.refused(damaged);
   fs::remove(place.file);
   place.refused("the file cannot be read; check its name");
 }

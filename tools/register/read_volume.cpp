@@ -109,7 +109,8 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
   }
   read.left_out = read.frames - sweep.images.size();
   if (sweep.images.size() < 2)
-    throw InputError(file, "", "it shows nothing: its voxels are 0", "give a volume of grey levels above 0");
+    throw InputError(file, "", "fewer than two of its slices have a voxel above 0",
+                     "give a volume of grey levels above 0");
   check_shows_fan(file, sweep, kLeastShown);
   return read;
 }

@@ -34,6 +34,9 @@ const fs::path& existing(const fs::path& file) {
   return file;
 }
 
+constexpr const char* kScoreColumns =
+    "uuid, learner, finished_ms, scenario, scenario_file, patient, score, scenario_digest";
+
 struct PictureKindName {
   ReportPicture::Kind kind;
   const char* name;
@@ -108,9 +111,12 @@ void ResultsDatabase::add(Attempt& attempt, std::int64_t sitting) {
 }
 
 Attempt ResultsDatabase::read_score(std::int64_t number) {
-  sqlite::Statement row(connection_,
-                        "SELECT uuid, learner, finished_ms, scenario, scenario_file, patient, score, scenario_digest "
-                        "FROM attempt WHERE number = ?");
+  sqlite::Statement row(connection_, std::string("SELECT ") + kScoreColumns + " FROM attempt WHERE number = ?");
+  return read_score(row, number);
+}
+
+/// Steps to the row, whose first columns are kScoreColumns.
+Attempt ResultsDatabase::read_score(sqlite::Statement& row, std::int64_t number) {
   if (!row.bind(1, number).step()) refuse_missing(number);
   Attempt attempt;
   attempt.number = number;
@@ -128,19 +134,20 @@ Attempt ResultsDatabase::read_score(std::int64_t number) {
 }
 
 Attempt ResultsDatabase::read(std::int64_t number) {
-  Attempt attempt = read_score(number);
+  // One statement, because another process may remove the attempt between two.
   sqlite::Statement row(connection_,
-                        "SELECT log_digest, log_size, log, trace_size, trace FROM attempt WHERE number = ?");
-  if (!row.bind(1, number).step()) refuse_missing(number);
+                        std::string("SELECT ") + kScoreColumns +
+                            ", log_digest, log_size, log, trace_size, trace FROM attempt WHERE number = ?");
+  Attempt attempt = read_score(row, number);
   const std::string place = "attempt " + std::to_string(number);
   const auto unpacked = [&](int size_column, const char* what) {
     const auto bytes = unpack(row, size_column);
     if (!bytes) fail(place, std::string("its ") + what + " is damaged");
     return *bytes;
   };
-  attempt.log = unpacked(1, "log");
-  attempt.trace_json = unpacked(3, "trace");
-  if (digest_of(attempt.log) != row.text(0)) fail(place, "its log is damaged");
+  attempt.log = unpacked(9, "log");
+  attempt.trace_json = unpacked(11, "trace");
+  if (digest_of(attempt.log) != row.text(8)) fail(place, "its log is damaged");
 
   sqlite::Statement picture(connection_, "SELECT step, kind, png FROM picture WHERE attempt = ? ORDER BY step, kind");
   picture.bind(1, number);

@@ -105,6 +105,7 @@ private:
   ResultsDatabase(const std::filesystem::path& file, bool make);
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const;
   [[noreturn]] void refuse_missing(std::int64_t attempt) const;
+  Attempt read_score(sqlite::Statement& row, std::int64_t number);
   std::int64_t insert_part(std::int64_t sitting, std::string_view log);
   void take_out(std::int64_t sitting);
 

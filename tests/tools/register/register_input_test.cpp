@@ -20,6 +20,7 @@
 #include "tests/core/temporary_folder.h"
 #include "tests/volume/dicom_files.h"
 #include "tools/register/read_sweep.h"
+#include "tools/register/read_volume.h"
 #include "tools/register/start_transform.h"
 
 using namespace insonate;
@@ -143,7 +144,8 @@ TEST_CASE("a mask leaves pixels out") {
   recorded.record(usual_matrix());
   const auto unknown = [&] {
     std::size_t count = 0;
-    for (const float pixel : read_sweep(recorded.input).sweep.images[0].grey.pixels) count += std::isnan(pixel);
+    const ReadSweep read = read_sweep(recorded.input);
+    for (const float pixel : read.sweep.images[0].grey.pixels) count += std::isnan(pixel);
     return count;
   };
   const std::size_t before = unknown();
@@ -160,6 +162,11 @@ TEST_CASE("a mask leaves pixels out") {
   recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
   CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
   CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("it cannot be read as a PNG"));
+  write_png(file, Image<std::uint8_t>(8193, 1));
+  CHECK_THROWS_WITH(read_png(file), Contains("mask.png: it has 8193 x 1 pixels; give a PNG with at most 8192 x 8192"));
+  const std::string bytes = png_bytes(mask);
+  CHECK_THROWS_WITH(read_png(recorded.folder.put("cut.png", bytes.substr(0, bytes.size() - 20))),
+                    Contains("cut.png: it is damaged ("));
 }
 
 TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same recording is") {
@@ -227,8 +234,52 @@ TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same
   refused("clip.dcm: it has no ultrasound region that gives the size of its pixels; give the images' matrix as");
   input.transform = "ProbeToPatient";
   refused("--transform: DICOM ultrasound has no transforms; leave it out, and give --poses FILE.");
-  recorded.input.poses = input.poses;
+  input.transform.clear();
+  clip.stored.resize(kWidth * kHeight);
+  clip.frames = 1;
+  write_dicom_clip(input.file, clip);
+  input.poses = {Pose{}};
+  refused("clip.dcm: it has one image; name a clip of a sweep.");
+  recorded.input.poses = {Pose{}, Pose{}, Pose{}};
   recorded.refused("--poses: they are for DICOM ultrasound; a recording has poses of its own; leave it out.");
+}
+
+TEST_CASE("a volume of ultrasound is read as slices along its beam, and one that cannot be is refused") {
+  const TemporaryFolder folder;
+  // 24 x 24 x 8 voxels, whose values change along y.
+  const auto volume = [&](const std::string& name, double spacing_mm, int first, int step) {
+    const std::string mm = std::to_string(spacing_mm);
+    std::string bytes = "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 24 24 8\n";
+    bytes += "space directions: (" + mm + ",0,0) (0," + mm + ",0) (0,0," + mm + ")\n";
+    bytes += "space origin: (0,0,0)\nendian: little\nencoding: raw\n\n";
+    for (int n = 0; n < 24 * 24 * 8; ++n) {
+      const std::int16_t value = std::int16_t(first + step * (n / 24 % 24));
+      bytes += {char(value & 0xff), char(value >> 8 & 0xff)};
+    }
+    return folder.put(name, bytes).string();
+  };
+  const glm::dvec3 along_y(0, 2, 0), along_z(0, 0, 1);
+  const std::string usual = volume("usual.nrrd", 1, 300, 10);
+  const ReadSweep read = read_volume_sweep(usual, along_y, {});
+  CHECK(read.frames == 20);
+  CHECK(read.left_out == 0);
+  REQUIRE(read.sweep.images.size() == 20);
+  CHECK(read.sweep.probe.width_mm == Approx(23));
+  CHECK(read.sweep.depth_mm == Approx(23));
+  const Image<float>& grey = read.sweep.images[10].grey;
+  CHECK(grey.at(grey.width / 2, grey.height / 4) < grey.at(grey.width / 2, 3 * grey.height / 4));
+
+  const auto refused = [](const std::string& file, const glm::dvec3& beam, const std::string& sentence) {
+    CHECK_THROWS_WITH(read_volume_sweep(file, beam, {}), Contains(sentence));
+  };
+  refused(usual, glm::dvec3(0), "--beam: it is not a direction; give X,Y,Z in LPS, such as 0,1,0 from front to back.");
+  refused(usual, glm::dvec3(NAN), "--beam: it is not a direction");
+  refused(volume("scan.seq.nrrd", 1, 300, 10), along_y, "scan.seq.nrrd: it is a recording, not a volume; leave out");
+  refused(volume("small.nrrd", 0.1, 300, 10), along_y,
+          "small.nrrd: it is 2 mm wide across the beam, not 5 to 200; crop it, or see whether --beam is right.");
+  refused(usual, along_z, "usual.nrrd: it is 7 mm deep along the beam, not 10 to 400; crop it");
+  refused(volume("dark.nrrd", 1, 0, -1), along_y,
+          "dark.nrrd: fewer than two of its slices have a voxel above 0; give a volume of grey levels above 0.");
 }
 
 TEST_CASE("a label map keeps the pixels inside its labels alone") {
@@ -292,6 +343,23 @@ TEST_CASE("without a probe, it is found from the fan in the images") {
   CHECK(read_sweep(recorded.input).sweep.probe.kind == ProbeKind::linear);  // images that are full
   recorded.record(usual_matrix(), 0);
   recorded.refused("the images show nothing in the probe's fan");
+
+  const auto record = [&](std::uint8_t grey, double last_mm) {
+    std::filesystem::remove(recorded.input.file);
+    SequenceRecorder recorder(recorded.input.file, kWidth, kHeight);
+    for (int i = 0; i < 3; ++i) {
+      const double mm = i == 2 ? last_mm : kPixelMm;
+      recorder.add({double(i), PoseStatus::ok, Pose{glm::dmat3(1), {0, 0, 2.0 * i}}},
+                   Image<std::uint8_t>(kWidth, kHeight, grey),
+                   glm::dmat4(mm, 0, 0, 0, 0, mm, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
+    }
+    recorder.finish();
+  };
+  record(90, 2 * kPixelMm);
+  recorded.refused("scan.igs.mha: frame 2: its pixels have another size; register the parts of one depth alone.");
+  record(0, kPixelMm);
+  recorded.refused(
+      "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth");
 }
 
 TEST_CASE("the fan of a real scanner's image is found, and real images without a fan are refused") {

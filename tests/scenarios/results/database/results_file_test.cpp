@@ -141,6 +141,8 @@ TEST_CASE("a damaged database is refused in a sentence") {
     run_sql(folder / "results.db", "UPDATE sitting_part SET log = x'00'");
     ResultsDatabase database = ResultsDatabase::open(folder / "results.db");
     CHECK_THROWS_WITH(database.parts(sitting.number), Catch::Contains("results.db: sitting 1: its log is damaged"));
+    run_sql(folder / "results.db", "UPDATE sitting SET scenario = scenario || ' '");
+    refused(folder / "results.db", "sitting 1: its scenario is damaged; go back to a copy");
   }
   SECTION("something that would run") {
     run_sql(folder / "results.db", "CREATE TRIGGER t AFTER INSERT ON attempt BEGIN UPDATE attempt SET passed = 1; END");
