@@ -18,6 +18,7 @@
 #include "app/panels/scan/guide_layer.h"
 #include "app/panels/scan/ultrasound_panel.h"
 #include "app/panels/views/space_lines.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 
@@ -548,7 +549,10 @@ void Screen::draw_status(Trainer& trainer) {
   }
   if (trainer.sweep().running()) {
     const SweepQuality quality = trainer.sweep().quality();
-    const std::string words = quality.flaws.empty() ? quality.verdict() : "Sweep: " + quality.flaws.back().words();
+    const std::string words =
+        "Sweep: " + (quality.flaws.empty()
+                         ? formatted("%.0f mm, at most %.1f mm apart", quality.length_mm, quality.largest_spacing_mm)
+                         : quality.flaws.back().words());
     draw_text(line, theme_.small_text, quality.flaws.empty() ? colour::kMuted : colour::kAmber, words);
     return;
   }

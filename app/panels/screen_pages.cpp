@@ -268,10 +268,11 @@ void Screen::open(const std::filesystem::path& path, Trainer& trainer) {
 }
 
 void Screen::quit(Trainer& trainer) {
-  if (takes_exam(trainer) && !asked_before(asked_to_quit_s_))
+  const bool hands_in = takes_exam(trainer) && !trainer.can_leave();
+  if (hands_in && !asked_before(asked_to_quit_s_))
     return show_note("This exam counts: do so once more to end it here and hand it in");
   const bool asked = std::ranges::find(pages_, Overlay::leave) != pages_.end() && leaving_.ends;
-  if (takes_exam(trainer) || asked)
+  if (hands_in || asked)
     quits_ = true;
   else
     ask_to_leave(trainer, true, [this](Trainer&) { quits_ = true; });

@@ -123,7 +123,8 @@ public:
   /// Leaves the current mode for the start page, and begins to load the built-in patient in the background. Does
   /// nothing where can_leave() is false.
   void show_start_page();
-  /// Returns whether the current mode may be left: false from an exam's Start to its end.
+  /// Returns whether the current mode may be left: false from the first pose of an exam that was
+  /// started to its end.
   bool can_leave() const;
   /// Returns whether leaving throws something away: steps that are scored and not finished.
   bool loses_by_leaving() const;

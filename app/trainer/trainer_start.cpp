@@ -10,7 +10,8 @@ namespace insonate {
 
 bool Trainer::can_leave() const {
   if (options_.headless || start_page()) return false;
-  const bool taken = in_exam() && session() && scan()->begun && !session()->result();
+  const bool taken =
+      in_exam() && session() && scan()->begun && session()->runner()->live().started && !session()->result();
   const bool only_this = given_.mode == Mode::exam && std::holds_alternative<Idle>(mode_);
   return !taken && !only_this;
 }

@@ -116,7 +116,7 @@ std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint
   const std::array quantities{
       Quantity{"Distance of the target from the plane, mm", 40, Metric::plane_distance_mm,
                [](const TracePoint& p) { return std::abs(p.view.plane_distance_mm); }},
-      Quantity{"Angle between the planes, degrees", 90, Metric::plane_angle_deg,
+      Quantity{"Angle to the reference plane, degrees", 90, Metric::plane_angle_deg,
                [](const TracePoint& p) { return p.view.plane_angle_deg; }},
       Quantity{"Target reached by the sound, % of the reference view", 120, Metric::target_insonated_percent,
                [](const TracePoint& p) { return p.view.target_insonated_percent; }},

@@ -153,22 +153,26 @@ std::string section(const StepResult& step, std::size_t index, const std::vector
 
 /// One line per step, as a summary for the examiner.
 std::string overview(const ExamResult& result) {
-  const auto line = [](const std::string& name, const std::string& outcome, double time_s, const StepResult& scored) {
+  const auto line = [](const std::string& name, const std::string& outcome, double time_s, const StepResult& scored,
+                       const std::string& score) {
     const double possible = scored.possible();
     return "<tr><td>" + name + "</td><td>" + outcome + "</td><td class='number'>" + fixed(time_s, 1) +
-           " s</td><td class='number'>" + score_in_words(scored) +
-           (possible > 0 ? bar(scored.earned() / possible) : "") + "</td></tr>\n";
+           " s</td><td class='number'>" + score + (possible > 0 ? bar(scored.earned() / possible) : "") +
+           "</td></tr>\n";
   };
   std::string html = "<table class='overview'><tbody>\n";
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     html += line(std::to_string(i + 1) + ". " + escaped(step.title), outcome_chip(step.outcome),
-                 step.end_s - step.start_s, step);
+                 step.end_s - step.start_s, step, score_in_words(step));
   }
   StepResult whole;  // its criteria are those of a step that has no other properties
   whole.outcome = StepOutcome::done;
   whole.criteria = result.criteria;
-  return html + line("Whole exam", "", result.motion.time_s, whole) + "</tbody></table>";
+  // Without criteria the whole has only its time.
+  return html +
+         line("Whole exam", "", result.motion.time_s, whole, whole.criteria.empty() ? "" : score_in_words(whole)) +
+         "</tbody></table>";
 }
 
 std::string verdict(const ExamResult& result) {
@@ -257,7 +261,7 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
   if (!result.briefing.empty()) html += "<p class='briefing'>" + escaped(result.briefing) + "</p>\n";
   html += verdict(result) + comments_section(subject.comments);
   for (std::size_t i = 0; i < result.steps.size(); ++i) html += section(result.steps[i], i, subject.pictures);
-  html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
+  if (!result.criteria.empty()) html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
   if (!trace.empty()) {
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
             "<p class='legend'><i class='key held'></i>held <i class='key judged'></i>judged without a hold "

@@ -103,6 +103,7 @@ Scene over_a_body(const char* probe) {
   scene.settings = test::trainer_with_amplitudes(scene.probe.frequency_mhz, scene.depth_mm);
   scene.settings.image_width = 320;
   scene.settings.image_height = 240;
+  scene.settings.dynamic_range_db = 55;  // the limits are shares of the greys over this range
   return scene;
 }
 

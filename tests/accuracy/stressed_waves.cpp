@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "sim/probe/probe.h"
+#include "sim/reference/clutter_reference.h"
 #include "tests/imaging/parity.h"
 #include "tests/imaging/wave_tolerance.h"
 
@@ -29,6 +31,24 @@ Between between(const Stages<double>& stages, const Image<double>& of_re, const 
       found.of_repeated = std::max(found.of_repeated, of_repeated.at(j, i));
     }
   return found;
+}
+
+/// Returns by how much of itself the body wall's haze may be wrong at each sample: what the tolerances of f make of the
+/// echoes that it is computed from.
+std::vector<double> haze_tolerance(const Stages<double>& expected, const Image<double>& of_re,
+                                   const Image<double>& of_im, const ScanLines& lines, const Settings& settings) {
+  Stages<double> louder = expected;
+  for (std::size_t i = 0; i < of_re.pixels.size(); ++i) {
+    const double f = std::hypot(expected.wave_re.pixels[i], expected.wave_im.pixels[i]);
+    louder.wave_re.pixels[i] = f + std::hypot(of_re.pixels[i], of_im.pixels[i]);
+    louder.wave_im.pixels[i] = 0;
+  }
+  const Image<double> haze = wall_clutter_reference(expected, lines, settings).most;
+  const Image<double> most = wall_clutter_reference(louder, lines, settings).most;
+  std::vector<double> share(haze.pixels.size());
+  for (std::size_t k = 0; k < share.size(); ++k)
+    if (haze.pixels[k] > 0) share[k] = most.pixels[k] / haze.pixels[k] - 1;
+  return share;
 }
 
 }  // namespace
@@ -72,14 +92,17 @@ std::string disagreement_of_waves(const Scene& scene, const Stages<double>& expe
   const double place = 2.4e-7 * std::max(rounding.width, rounding.height);
   const ImageGeometry picture =
       image_geometry(scene.probe, scene.depth_mm, expected.fused.width, expected.fused.height);
+  const std::vector<double> of_haze = haze_tolerance(expected, of_re, of_im, lines, scene.settings);
   fused_tolerance = Image<double>(expected.fused.width, expected.fused.height);
   for (int y = 0; y < fused_tolerance.height; ++y)
     for (int x = 0; x < fused_tolerance.width; ++x)
       if (const auto at = line_position(scene.probe, scene.depth_mm, picture.plane_mm(x, y))) {
         const Between beside = between(expected, of_re, of_im, of_repeated, {at->line, at->r_mm / lines.dr_mm() - 0.5});
         const double u = expected.fused.at(x, y), of_wave = beside.of_wave + place * beside.wave;
+        const auto k = std::size_t(std::clamp(at->r_mm / lines.dr_mm() - 0.5, 0.0, double(lines.samples - 1)));
+        const double haze = std::max(of_haze[k], of_haze[std::min(k + 1, of_haze.size() - 1)]);
         fused_tolerance.at(x, y) =
-            2 * std::sqrt(u) * of_wave + of_wave * of_wave + beside.of_repeated + 1e-3 * u + kLeastEcho;
+            2 * std::sqrt(u) * of_wave + of_wave * of_wave + beside.of_repeated + (1e-3 + haze) * u + kLeastEcho;
       } else {
         fused_tolerance.at(x, y) = kLeastEcho;
       }

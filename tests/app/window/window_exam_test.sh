@@ -220,6 +220,12 @@ is overlay problem || fail "the refusal is not shown"
 xdotool key Return
 wait "$trainer" || fail "it ended with $?"
 
+echo "an exam that has not begun can be left, and nothing is kept of it"
+start_trainer exam --scenario "$work/exam.toml" --tracker mouse: --learner L-09 --results "$work/lab.db"
+await "the briefing is shown" is overlay briefing
+xdotool key ctrl+q
+wait "$trainer" || fail "it ended with $?"
+
 echo "an exam that counts is handed in by leaving twice, and not by leaving once"
 start_trainer exam --scenario "$work/exam.toml" --tracker mouse: --learner L-08 --results "$work/lab.db"
 await "the briefing is shown" is overlay briefing
@@ -231,5 +237,6 @@ kill -0 "$trainer" || fail "one key ended an exam that counts"
 xdotool key ctrl+q
 wait "$trainer" || fail "it ended with $?"
 "$score" attempts "$work/lab.db" >"$work/attempts.txt" 2>&1 || fail "$(cat "$work/attempts.txt")"
+! grep -q "L-09" "$work/attempts.txt" || fail "an exam that had not begun was handed in"
 grep -q "L-08.*exam" "$work/attempts.txt" || fail "the exam was not handed in: $(cat "$work/attempts.txt")"
 echo "passed"
