@@ -269,7 +269,8 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
     html += "<section><h2>Path of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
     for (std::size_t i = 0; i < result.steps.size(); ++i)
       html += "<i class='key path" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
-    html += "</p></section>\n";
+    html +=
+        "<i class='key spot good'></i>judged, view held <i class='key spot bad'></i>judged otherwise</p></section>\n";
   }
   return html + made_from(result) + "</main></body></html>\n";
 }

@@ -20,6 +20,10 @@ mv "$work/installed" "$work/moved"
 cp -r "$examples" "$work/project"
 "$cmake" -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/moved" -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 &&
   "$cmake" --build "$work/build" >>"$work/log" 2>&1 || fail "the project does not build: $(cat "$work/log")"
+# The trainer learns from a log's plan which exam the log is of.
+for log in "$work"/moved/share/insonate/logs/*.igs.mha; do
+  [ -f "${log%.igs.mha}.toml" ] || fail "no plan lies beside $log"
+done
 # Debugging information may name the sources; nothing that the project reads may.
 named=$(grep -rlF --include='*.cmake' --include='*.h' "$(cd "$build/../.." && pwd)" "$work/moved") || true
 [ -z "$named" ] || fail "the install names the source tree: $named"
