@@ -30,8 +30,11 @@ bool BestFrames::due(const Session& session, const PictureTools& tools) const {
   const LiveExam& live = session.runner()->live();
   if (session.attempt() != attempt_ || live.step != step_) return live.hold_share > 0;
   if (live.hold_share > share_ + kStep) return true;
-  const std::vector<Action> placed = placed_in(session.frozen_picture(), tools);
-  return !placed.empty() && placed != placed_;
+  const std::optional<Pose> picture = session.frozen_picture();
+  if (!picture || live.finished || tools.free_choice()) return false;
+  const std::vector<Action> placed = placed_in(picture, tools);
+  // What is taken back leaves the kept picture; another picture replaces it once something is placed there.
+  return placed != placed_ && (picture == picture_ || !placed.empty());
 }
 
 void BestFrames::keep(const Session& session, const PictureTools& tools, const Pictures& pictures) {
@@ -41,7 +44,8 @@ void BestFrames::keep(const Session& session, const PictureTools& tools, const P
   step_ = live.step;
   share_ = live.hold_share;
   Image<Rgba8> frame = mirrored(read_back(*pictures.ultrasound()));
-  placed_ = placed_in(session.frozen_picture(), tools);
+  picture_ = session.frozen_picture();
+  placed_ = placed_in(picture_, tools);
   draw_annotations(frame, pictures.geometry(), placed_);
   frames_[live.step] = std::move(frame);
 }

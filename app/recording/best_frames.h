@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "app/pictures/pictures.h"
@@ -34,6 +35,7 @@ private:
   int attempt_ = 0;                             ///< whose frames these are; 0 for none
   std::size_t step_ = 0;                        ///< of the newest
   double share_ = 0;                            ///< of the hold, when it was kept
+  std::optional<Pose> picture_;                 ///< of the newest, if it was frozen
   std::vector<Action> placed_;                  ///< in the newest
 };
 

@@ -112,8 +112,10 @@ full = 2
 zero = 10
 )");
   const auto placed = [](double x) { return Action{ActionKind::caliper, {1, x, 40, x, 80}}; };
-  const ActionLog actions{
+  ActionLog actions{
       {1.0, {{ActionKind::freeze}}}, {1.5, {placed(-15)}}, {2.0, {placed(15)}}, {3.0, {{ActionKind::go_on}}}};
+  const bool taken_back = GENERATE(false, true);
+  if (taken_back) actions[2.5] = {{ActionKind::take_back, {1}}};
   folder.file("scan.igs.mha", write_sequence(samples_of(4, 60,
                                                         [](double) {
                                                           return Pose{glm::dmat3(1.0), {0, 1, 0}};
@@ -135,7 +137,7 @@ zero = 10
     const glm::dvec2 at = plane.screen({x, 80});
     return kept->at(int(at.x), int(at.y)) == Rgba8{240, 240, 240, 255};
   };
-  CHECK(has_cross(15));
+  CHECK(has_cross(15) == !taken_back);
   CHECK_FALSE(has_cross(-15));
 }
 
