@@ -46,12 +46,13 @@ std::string_view to_string(LiveRegistrar::Work work) {
 }
 
 LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                             const RegistrationSettings& settings, bool gives_way,
+                             const RegistrationSettings& settings, bool gives_way, bool searches,
                              std::function<void(const TrackedSweep&, const glm::dmat4&)> check)
     : volume_(volume),
       start_(start),
       settings_(settings),
       gives_way_(gives_way),
+      searches_(searches),
       check_(std::move(check)),
       window_(probe, depth_mm) {
   settings_.batch = kPlaces;
@@ -142,9 +143,10 @@ bool LiveRegistrar::begin_round(Task& task) {
       state_.work = Work::waiting;
       continue;
     }
-    task.wide = std::exchange(wants_wide_, false);
+    const bool searches = searches_ && !has_wide_;
+    task.wide = std::exchange(wants_wide_, false) || searches;
     task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.slices);
-    task.from = task.wide || is_settled_ ? state_.ct_from_sweep : start_;
+    task.from = (task.wide || is_settled_) && !searches ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
     lock.unlock();

@@ -30,7 +30,8 @@ struct LiveRound {
 /// takes well-spread images of the newest ones and follows the estimate by local searches. A wide search looks for
 /// other places too; only one that converges makes the estimate count as converged. Until there are as many images as a
 /// round takes, each round begins at the start: what few images find may be a wrong place that no later round leaves.
-/// For the same reason the first round with all its images looks around the start.
+/// For the same reason the first round with all its images looks around the start. Where nobody can ask for a wide
+/// search, each round is one, around the start, until one has converged.
 ///
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
@@ -68,8 +69,9 @@ public:
   /// @param check   called on the thread before each round with its images and the estimate; an InputError that it
   ///                throws is the problem, and the round waits for other images
   /// @param gives_way  false: there is no picture, and the thread has the caller's priority
+  /// @param searches   until it has found the place, by itself; search_widely() asks for one search
   LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                const RegistrationSettings& settings, bool gives_way,
+                const RegistrationSettings& settings, bool gives_way, bool searches,
                 std::function<void(const TrackedSweep&, const glm::dmat4&)> check);
   /// Ends the thread within one call of the similarity.
   ~LiveRegistrar();
@@ -108,7 +110,7 @@ private:
   const AcousticVolume& volume_;
   const glm::dmat4 start_;
   RegistrationSettings settings_;
-  const bool gives_way_;
+  const bool gives_way_, searches_;
   const std::function<void(const TrackedSweep&, const glm::dmat4&)> check_;
 
   mutable std::mutex mutex_;

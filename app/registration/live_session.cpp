@@ -67,7 +67,7 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
       Probe probe = *input_.probe;
       probe.lines = input_.width;
       registrar_ = std::make_unique<LiveRegistrar>(volume_, probe, depth_mm(), request_.start, request_.settings,
-                                                   request_.gives_way,
+                                                   request_.gives_way, request_.searches,
                                                    [this](const TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) {
                                                      check_shows_fan(input_.file, sweep);
                                                      check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);

@@ -28,7 +28,7 @@ struct LiveRequest {
   RegistrationSettings settings;
   bool refines = true;    ///< at once, when there are images enough
   bool gives_way = true;  ///< the registration, to the pictures; false where there are none
-  bool searches = false;  ///< widely, with the first round
+  bool searches = false;  ///< widely, by itself, until it has found the place
 };
 
 /// Registers real ultrasound that arrives over OpenIGTLink with a CT, without a screen: receives images, finds the

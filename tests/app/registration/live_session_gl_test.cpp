@@ -165,7 +165,7 @@ TEST_CASE("the first round with all its images looks around a start that is near
   settings.slices = 20;
   const std::size_t last = scan.images.size() - 1;
   for (const std::size_t first : {26, 34, 42, 62, 64, 68}) {
-    LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, start, settings, false,
+    LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, start, settings, false, false,
                             [](const TrackedSweep&, const glm::dmat4&) {});
     registrar.refine(false);
     for (std::size_t n = 0; n < 20; ++n) {
@@ -177,6 +177,38 @@ TEST_CASE("the first round with all its images looks around a start that is near
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
   }
+}
+
+// The first images show too little for any search; a search that is asked for once would have been in vain.
+TEST_CASE("where nobody can ask for one, wide searches go on until one has found the place") {
+  const test::Scan& scan = patient().scan;
+  SweepInput input;
+  input.probe = *find_probe("curvilinear");
+  input.depth_mm = kDepthMm;
+  RegistrationSettings settings;
+  settings.search_mm = 12;
+  settings.search_deg = 10;
+  settings.slices = 20;
+  const glm::dmat4 start = test::start_off_by(scan, {4, -2, 2}, 4);
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, start, settings, false, true,
+                          [](const TrackedSweep&, const glm::dmat4&) {});
+  const auto add = [&](std::size_t at) {
+    registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
+  };
+  const auto wait = [&](auto&& until) {
+    while (!until(registrar.state())) {
+      REQUIRE(registrar.state().work != LiveRegistrar::Work::failed);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  };
+  registrar.refine(false);
+  for (std::size_t n = 0; n < 7; ++n) add(n);
+  registrar.refine(true);
+  wait([](const LiveRegistrar::State& state) { return state.rounds > 0; });
+  REQUIRE_FALSE(registrar.state().last->found.converged());
+  for (std::size_t n = 0; n < scan.images.size(); n += 5) add(n);
+  wait([](const LiveRegistrar::State& state) { return state.last->found.converged(); });
+  CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
 }
 
 TEST_CASE("images that carry their own place are registered, with the probe that they show") {
