@@ -146,19 +146,26 @@ void Texture::write_slices(GLenum layout, GLenum type, int first, int count, con
   if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
 }
 
-void Texture::write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin) {
+std::size_t Texture::largest_side() const {
+  const auto area = [](int a, int b) { return std::size_t(a) * std::size_t(b); };
+  return std::max({area(width_, height_), area(height_, depth_), area(width_, depth_)});
+}
+
+// Not by glClearTexSubImage: NVIDIA's driver 580 leaves such thin parts of a 3D texture as they were. Nor from floats,
+// which it does not round to the nearest whole number.
+void Texture::write_inside(GLenum layout, GLenum type, const void* pixels, const void* side) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   forget_errors();
-  const auto fill = [&](int x, int y, int z, int width, int height, int depth) {
-    glClearTexSubImage(object_.name(), 0, x, y, z, width, height, depth, GL_RGBA, GL_FLOAT, margin.data());
+  const auto write = [&](int x, int y, int z, int width, int height, int depth, const void* texels) {
+    glTextureSubImage3D(object_.name(), 0, x, y, z, width, height, depth, layout, type, texels);
   };
-  fill(0, 0, 0, 1, height_, depth_);
-  fill(width_ - 1, 0, 0, 1, height_, depth_);
-  fill(0, 0, 0, width_, 1, depth_);
-  fill(0, height_ - 1, 0, width_, 1, depth_);
-  fill(0, 0, 0, width_, height_, 1);
-  fill(0, 0, depth_ - 1, width_, height_, 1);
-  glTextureSubImage3D(object_.name(), 0, 1, 1, 1, width_ - 2, height_ - 2, depth_ - 2, layout, type, pixels);
+  write(0, 0, 0, 1, height_, depth_, side);
+  write(width_ - 1, 0, 0, 1, height_, depth_, side);
+  write(0, 0, 0, width_, 1, depth_, side);
+  write(0, height_ - 1, 0, width_, 1, depth_, side);
+  write(0, 0, 0, width_, height_, 1, side);
+  write(0, 0, depth_ - 1, width_, height_, 1, side);
+  write(1, 1, 1, width_ - 2, height_ - 2, depth_ - 2, pixels);
   if (out_of_memory()) throw TextureRefused(width_, height_, depth_, 0);
 }
 

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 /// OpenGL's objects as move-only values. One owner deletes each of them, and the context that created it must be
 /// current then.
@@ -46,7 +47,7 @@ public:
   /// bytes, which OpenGL refuses, and DeviceRefused if the device has not enough memory.
   Buffer(std::size_t bytes, const void* data);
 
-  /// Replaces the first `bytes` bytes.
+  /// Replaces the first `bytes` bytes, which the device must no longer read (StreamedBuffer).
   void write(const void* data, std::size_t bytes);
   /// Reads `bytes` bytes from `offset` on. Blocks until the device has finished.
   void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
@@ -107,8 +108,12 @@ public:
   void write(GLenum layout, GLenum type, const Buffer& pixels);
   /// The same for `count` slices of a 3D texture, from slice `first` on.
   void write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels);
-  /// Uploads all of a 3D texture except a margin of one texel on every side, which becomes `margin` (RGBA).
-  void write_inside(GLenum layout, GLenum type, const void* pixels, const std::array<float, 4>& margin);
+  /// Uploads all of a 3D texture except a margin of one texel on every side, whose texels all become `margin`. Both are
+  /// texels of `type` in `layout`.
+  template <typename Texel>
+  void write_inside(GLenum layout, GLenum type, const Texel* pixels, const Texel& margin) {
+    write_inside(layout, type, pixels, std::vector<Texel>(largest_side(), margin).data());
+  }
   /// Reads all texels back, tightly packed.
   void read(GLenum layout, GLenum type, void* pixels, std::size_t bytes) const;
 
@@ -127,6 +132,8 @@ private:
   enum class Storage { immutable, of_screen };
   static Texture make(GLenum target, GLenum format, int width, int height, int depth, Filter filter, Wrap wrap,
                       Storage storage = Storage::immutable);
+  void write_inside(GLenum layout, GLenum type, const void* pixels, const void* side);
+  std::size_t largest_side() const;  // texels of the largest face of a 3D texture
 
   Object<TextureKind> object_;
   GLenum format_ = 0;

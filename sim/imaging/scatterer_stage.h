@@ -6,6 +6,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/gl/work_division.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -54,8 +55,7 @@ private:
   ScanLines lines_;
   TexelBuffer scattered_, scale_;
   Settings scale_of_;  // the settings for which scale_ holds
-  Buffer parameters_{sizeof(ScatterParameters), nullptr}, columns_;
-  std::size_t column_bytes_ = 0;  // of columns_
+  StreamedBuffer parameters_, columns_;
 };
 
 }  // namespace insonate::gl

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/gl/streamed_buffer.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/dirty_stages.h"
 #include "sim/imaging/fan_layout.h"
@@ -74,7 +75,7 @@ struct Simulator::State {
   // Inputs of the stages.
   DeviceVolume volume;
   SimulationParameters parameters{};
-  Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
+  StreamedBuffer parameter_buffer;
   TexelBuffer noise, fan_weights;  // by pixel
   Buffer fan_blocks;
   double noise_length_mm = 0;  // grain of the noise

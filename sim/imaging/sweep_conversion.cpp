@@ -32,9 +32,7 @@ SweepParameters parameters_of(const Sweep& sweep, int planes, int samples, const
 }  // namespace
 
 SweepConversion::SweepConversion(const ShaderSources& sources, const WorkDivision& division)
-    : program_(sources, {"imaging/sweep_convert.comp"}),
-      division_(division),
-      parameters_(sizeof(SweepParameters), nullptr) {}
+    : program_(sources, {"imaging/sweep_convert.comp"}), division_(division) {}
 
 void SweepConversion::lay_out(const Grid& grid) {
   const bool as_large = grid.size == grid_.size;

@@ -4,6 +4,7 @@
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/gl/work_division.h"
 #include "sim/probe/sweep.h"
 
@@ -49,7 +50,7 @@ public:
 private:
   Program program_;
   WorkDivision division_;
-  Buffer parameters_;
+  StreamedBuffer parameters_;
   TexelBuffer plane_from_voxel_;
   Grid grid_;
   std::vector<Slab> slabs_;

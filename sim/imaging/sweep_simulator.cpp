@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim/gl/streamed_buffer.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/dirty_stages.h"
 #include "sim/imaging/line_stages.h"
@@ -70,7 +71,7 @@ struct SweepSimulator::State {
 
   // Derived from these, and results of the stages.
   std::vector<Part> parts;
-  Buffer parameter_buffer{sizeof(SimulationParameters), nullptr};
+  StreamedBuffer parameter_buffer;
   TexelBuffer noise;           // by sample of a plane
   double noise_length_mm = 0;  // grain of the noise
   TexelBuffer fused;           // by sample of a part

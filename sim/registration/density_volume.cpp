@@ -27,7 +27,7 @@ double between(const AcousticVoxel* row, std::ptrdiff_t stride, int count, doubl
 Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<std::int16_t, 4>>& voxels) {
   const glm::ivec3 size = grid.size + 2 * kAirMargin;
   Texture texture = Texture::make_3d(format, size.x, size.y, size.z, Filter::linear, Wrap::edge);
-  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {float(AcousticVoxel{}.hu) / 32767.0f, 0, 0, 0});
+  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {AcousticVoxel{}.hu, 0, 0, 0});
   return texture;
 }
 

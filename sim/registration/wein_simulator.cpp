@@ -14,6 +14,7 @@
 #include <string>
 
 #include "sim/core/text.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/imaging/fan_layout.h"
 #include "sim/imaging/view_limits.h"
@@ -115,7 +116,8 @@ struct WeinSimulator::State {
   std::optional<ScanStages> interleaved;  // for calls with several images, with a software renderer
   ScanStages alone;
   Program lc2;
-  Buffer parameter_buffer{sizeof(WeinParameters), nullptr}, similarities;
+  StreamedBuffer parameter_buffer;
+  Buffer similarities;
   std::size_t similarities_held = 0;
   TexelBuffer tiles;
   std::vector<PixelPlace> pixel_places;

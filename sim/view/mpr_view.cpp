@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/gl/streamed_buffer.h"
 #include "sim/shaders/view/mpr_parameters.h"
 #include "sim/view/picture_target.h"
 
@@ -57,7 +58,7 @@ struct MprView::State {
 
   gl::Program program;
   gl::FullScreenTriangle triangle;
-  gl::Buffer parameters{sizeof(MprParameters), nullptr};
+  gl::StreamedBuffer parameters;
   PictureTarget target;
   std::optional<Inputs> drawn;
   long renders = 0;

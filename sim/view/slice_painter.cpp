@@ -33,7 +33,7 @@ SliceParameters parameters_for(const PatientTextures& patient, const glm::dmat4&
 }  // namespace
 
 SlicePainter::SlicePainter(const gl::ShaderSources& sources)
-    : program_(sources, {"view/full_screen.vert", "view/slice.frag"}), parameters_(sizeof(SliceParameters), nullptr) {}
+    : program_(sources, {"view/full_screen.vert", "view/slice.frag"}) {}
 
 const gl::Texture& SlicePainter::draw(const PatientTextures& patient, const glm::dmat4& patient_from_pixel,
                                       const glm::ivec2& size, const CtStyle& style, const MixedUltrasound& ultrasound) {

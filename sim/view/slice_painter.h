@@ -11,6 +11,7 @@
 
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/view/body/patient_textures.h"
 #include "sim/view/picture_target.h"
 
@@ -56,7 +57,7 @@ public:
 private:
   gl::Program program_;
   gl::FullScreenTriangle triangle_;
-  gl::Buffer parameters_;
+  gl::StreamedBuffer parameters_;
   PictureTarget target_;
   long renders_ = 0;
 };

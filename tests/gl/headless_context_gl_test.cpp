@@ -87,16 +87,18 @@ TEST_CASE("EGL's devices can be chosen by number, and one of them is what is tak
 
 TEST_CASE("without a choice a software renderer is the last thing that is taken") {
   const Variable none(kChosen, nullptr);
+  bool has_software = false;
   {
     const Variable hardware_too(kSoftware, nullptr);
     const std::vector<gl::EglDisplay> displays = gl::egl_displays();
     REQUIRE_FALSE(displays.empty());
     CHECK(std::ranges::is_sorted(displays, {}, &gl::EglDisplay::is_software));
+    has_software = std::ranges::any_of(displays, &gl::EglDisplay::is_software);
   }
   const Variable software_alone(kSoftware, "1");
   try {
     const gl::HeadlessContext context;
-    CHECK(gl::is_software_renderer());
+    CHECK((gl::is_software_renderer() || !has_software));  // a card's own driver does not know the variable
   } catch (const std::runtime_error& error) {
     WARN("skipped, no software renderer is installed: " << error.what());
   }

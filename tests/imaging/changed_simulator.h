@@ -9,6 +9,7 @@
 
 #include "sim/imaging/simulator.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/parity.h"
 #include "tests/imaging/test_body.h"
 
 namespace insonate::test {
@@ -17,7 +18,7 @@ namespace insonate::test {
 inline void set_up(gl::Simulator& simulator, const Settings& settings) {
   simulator.set_volume(test_body(), tissues());
   simulator.set_probe(*find_probe("curvilinear"), 100);
-  simulator.set_settings(settings);
+  simulator.set_settings(exact_as_needed(settings));
   simulator.set_pose(on_the_skin(0, 9, 0));
 }
 
@@ -36,7 +37,7 @@ struct ChangedSimulator {
   gl::Simulator simulator;
   Settings settings;
 
-  explicit ChangedSimulator(const Settings& first) : settings(first) {
+  explicit ChangedSimulator(const Settings& first) : settings(exact_as_needed(first)) {
     set_up(simulator, settings);
     simulator.image();
   }

@@ -11,6 +11,7 @@
 #include "sim/imaging/simulator.h"
 #include "sim/tissue/acoustic_volume.h"
 #include "tests/gl/test_context.h"
+#include "tests/imaging/parity.h"
 
 using namespace insonate;
 
@@ -65,7 +66,7 @@ TEST_CASE("structure shows in pictures, and changes the mean grey of no tissue b
   const Probe& probe = *find_probe("curvilinear");
   gl::Simulator simulator;
   simulator.set_probe(probe, kDepth_mm);
-  simulator.set_settings(with_usual_display(trainer_settings(probe.frequency_mhz, kDepth_mm)));
+  simulator.set_settings(test::exact_as_needed(with_usual_display(trainer_settings(probe.frequency_mhz, kDepth_mm))));
   for (const std::string tissue : {"liver", "spleen", "muscle", "fat", "bowel", "pancreas", ""}) {
     const Volume<std::int16_t> ct = block(tissue == "fat" ? -100 : 55);
     Volume<std::uint8_t> labels;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/gl/headless_context.h"
 #include "sim/imaging/scatterer_stage.h"
 #include "sim/imaging/simulator.h"
 #include "sim/model/beam.h"
@@ -154,27 +155,42 @@ TEST_CASE("a move of the probe by a hundredth of a millimetre changes the echo's
   CHECK(worst < 0.1);
 }
 
-TEST_CASE("the lines of many planes hold what each plane's picture holds, with waves, to the last bit") {
+TEST_CASE("the lines of many planes hold what each plane's picture holds, with waves") {
   for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_a_group()}) {
     Settings settings = test::everything();
     settings.waves = true;
     settings.specular_exponent = 6;
     const test::TestContext context;
+    // A card's compiler may fuse other multiplications and additions where a program is compiled for many planes.
+    const float rounding = gl::is_software_renderer() ? 0 : 1e-5f;
     const std::vector<test::SweptPlane> planes = test::swept_lines(settings, division);
     for (std::size_t plane = 0; plane < planes.size(); ++plane) {
       CAPTURE(plane);
       const auto& [picture, scan, echoes] = planes[plane];
-      long differ = 0, heard = 0;
+      std::array<float, 8> loudest{}, difference{};
+      long heard = 0;
       for (int line = 0; line < scan.width; ++line)
         for (int k = 0; k < scan.height; ++k) {
           heard += echoes.at(line, k)[0] != 0;
-          differ += scan.at(line, k) != std::array{picture.intensity.at(line, k), picture.scattered.at(line, k),
-                                                   picture.echo_re.at(line, k), picture.echo_im.at(line, k)};
           const float intensity = picture.intensity.at(line, k);
-          differ += echoes.at(line, k) != std::array{picture.wave_re.at(line, k), picture.wave_im.at(line, k),
-                                                     intensity * intensity, picture.repeated.at(line, k)};
+          const std::array<float, 8> of_picture{intensity,
+                                                picture.scattered.at(line, k),
+                                                picture.echo_re.at(line, k),
+                                                picture.echo_im.at(line, k),
+                                                picture.wave_re.at(line, k),
+                                                picture.wave_im.at(line, k),
+                                                intensity * intensity,
+                                                picture.repeated.at(line, k)};
+          for (std::size_t i = 0; i < 8; ++i) {
+            const float of_planes = i < 4 ? scan.at(line, k)[i] : echoes.at(line, k)[i - 4];
+            loudest[i] = std::max(loudest[i], std::abs(of_picture[i]));
+            difference[i] = std::max(difference[i], std::abs(of_planes - of_picture[i]));
+          }
         }
-      CHECK(differ == 0);
+      for (std::size_t i = 0; i < 8; ++i) {
+        CAPTURE(i, loudest[i], difference[i]);
+        CHECK(difference[i] <= rounding * loudest[i]);
+      }
       CHECK((heard > scan.width * scan.height / 4 || plane >= 9));
     }
   }

@@ -80,7 +80,7 @@ TEST_CASE("Axis slices show the density in window and level at every pixel") {
         worst = std::max(worst, std::abs(image.at(x, y)[0] - expected));
       }
     CHECK(inside > 5000);
-    CHECK(worst <= 1.0);
+    CHECK(worst <= 1.0 + test::of_filter(0.25));
   }
 }
 

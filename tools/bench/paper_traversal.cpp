@@ -44,7 +44,6 @@ void PaperTraversal::set_lines(const ScanLines& lines, const Settings& settings)
   lines_ = lines;
   settings_ = settings;
   const int n = int(lines.lines.size()), d = lines.samples;
-  line_buffer_ = Buffer(lines.lines.size() * sizeof(GpuLine), nullptr);
   scan_ = Texture::make_2d(GL_RG32F, n, d, Filter::nearest);
   for (Side& side : sides_) {
     side.carried = Texture::make_2d(GL_RGBA32F, n, d, Filter::nearest);

@@ -7,6 +7,7 @@
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
+#include "sim/gl/streamed_buffer.h"
 #include "sim/imaging/device_volume.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
@@ -50,7 +51,7 @@ private:
   Settings settings_;
   DeviceVolume volume_;
   Texture scan_;
-  Buffer line_buffer_;
+  StreamedBuffer line_buffer_;
   struct Side {
     Texture carried;
     Object<FramebufferKind> framebuffer;

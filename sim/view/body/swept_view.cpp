@@ -27,7 +27,7 @@ Volume<std::int16_t> smoothed(const Volume<std::uint8_t>& grey, const Volume<std
 gl::Texture texture_of(const Volume<std::int16_t>& volume) {
   const glm::ivec3 size = volume.grid.size + 2;
   gl::Texture texture = gl::Texture::make_3d(GL_R16_SNORM, size.x, size.y, size.z, gl::Filter::linear, gl::Wrap::edge);
-  texture.write_inside(GL_RED, GL_SHORT, volume.voxels.data(), {0, 0, 0, 0});
+  texture.write_inside(GL_RED, GL_SHORT, volume.voxels.data(), std::int16_t(0));
   return texture;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/gl/streamed_buffer.h"
 #include "sim/shaders/view/volume_view_parameters.h"
 #include "sim/view/body/classified_ct.h"
 #include "sim/view/body/tissue_classes.h"
@@ -142,7 +143,7 @@ struct VolumeView::State {
   gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct) const;
   gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
-  gl::Buffer parameters{sizeof(VolumeViewParameters), nullptr};
+  gl::StreamedBuffer parameters;
   ClassifiedCt classified;
   PictureTarget full, reduced;
   Layers layers;

@@ -101,8 +101,8 @@ Table measure_batch(const Request& request) {
         table.rows.push_back({gl::device_description(), scene.name, scene.view, std::to_string(c.lines),
                               std::to_string(c.samples), std::to_string(c.width), std::to_string(c.height), method,
                               std::to_string(images_a_call), std::to_string(request.frames),
-                              cell_of(spread.first_quartile, 5), cell_of(spread.median, 5),
-                              cell_of(spread.third_quartile, 5), cell_of(1000 / spread.median, 1),
+                              cell_of(spread.first_quartile, 7), cell_of(spread.median, 7),
+                              cell_of(spread.third_quartile, 7), cell_of(1000 / spread.median, 1),
                               cell_of(mpixels_a_second(spread), 2)});
       };
       const auto report = [&](const char* method, const Spread& one, const Spread& all) {
