@@ -101,6 +101,12 @@ int run_headless(const Options& options) {
   std::optional<Image<Rgba8>> held_screen;
   const bool live = session.source().live(), watched = !options.igtl_server.empty(),
              seen = watched || options.record_images || !options.latency.empty();
+  if (watched) {
+    const igtl::Address address = trainer.feed()->server().address();
+    std::printf("Sends poses and pictures by OpenIGTLink at %s, port %d.\n", address.text().c_str(),
+                int(address.port()));
+    std::fflush(stdout);
+  }
   const double start_s = steady_now_s();
   for (long step = 0;; ++step) {
     const double now_s = double(step) * kStep_s;

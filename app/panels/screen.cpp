@@ -446,7 +446,8 @@ void Screen::show_on_desktop(const std::filesystem::path& path) {
 void Screen::note_unopened() {
   using namespace std::chrono_literals;
   if (!opening_.valid() || opening_.wait_for(0s) != std::future_status::ready) return;
-  if (!opening_.get()) show_note("No program of this computer opens it. It is " + opened_.string());
+  if (!opening_.get())
+    show_note("No program of this computer opens it. It is " + std::filesystem::absolute(opened_).string());
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.

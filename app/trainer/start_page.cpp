@@ -64,6 +64,10 @@ std::string name_of_case(const fs::path& folder) {
   }
 }
 
+bool is_patient_of(const CaseSource& a, const CaseSource& b) {
+  return a.ct == b.ct && a.case_folder == b.case_folder;
+}
+
 /// Returns the smallest seed that draws this variant.
 std::uint32_t seed_of(std::size_t variant, std::size_t variants) {
   std::uint32_t seed = 0;
@@ -286,6 +290,7 @@ void StartPage::read_runs() {
       offered_run.scenario = of->file;
       offered_run.seed = std::uint32_t(document.root().whole_number("scenario_seed", 0, 0xffffffff, 0));
       offered_run.replay.log = log;
+      offered_run.is_skilled = good;
       if (good) expert_of_[of->digest] = log;
       bundled.push_back(std::move(offered_run));
     } catch (const std::exception& error) {
@@ -373,6 +378,15 @@ void StartPage::choose_drawing(const fs::path& file) {
   options_.drawing = file;
 }
 
+void StartPage::withdraw(const CaseSource& source) {
+  const auto found = std::ranges::find_if(patients_, [&](const OfferedPatient& offered) {
+    return offered.opened && is_patient_of(offered.source, source);
+  });
+  if (found == patients_.end()) return;
+  patients_.erase(found);
+  patient = 0;
+}
+
 std::vector<OfferedPatient> StartPage::opened_patients() const {
   std::vector<OfferedPatient> opened;
   std::ranges::copy_if(patients_, std::back_inserter(opened), &OfferedPatient::opened);
@@ -402,9 +416,12 @@ void StartPage::add(const fs::path& path) {
       (is_ct ? offered.source.ct : offered.source.case_folder) = path;
       offered.about += " in " + path.parent_path().string();
       offered.opened = true;
-      patients_.push_back(std::move(offered));
-      patient = patients_.size() - 1;
       task = Task::patients;
+      const auto there = std::ranges::find_if(patients_, [&](const OfferedPatient& other) {
+        return other.opened && is_patient_of(other.source, offered.source);
+      });
+      patient = std::size_t(there - patients_.begin());
+      if (there == patients_.end()) patients_.push_back(std::move(offered));
       return;
     }
     case Material::raw_log:

@@ -53,6 +53,7 @@ struct OfferedRun {
   ReplaySource replay;
   std::filesystem::path scenario, expert;  ///< empty if unknown
   std::uint32_t seed = 0;                  ///< draws the scenario's variant
+  bool is_skilled = false;                 ///< what other runs are compared with
 
   /// Returns whether a person has to say which scenario the run is of.
   bool needs_scenario() const { return replay.attempt == 0 && scenario.empty(); }
@@ -140,6 +141,8 @@ public:
   const std::filesystem::path& drawing() const { return options_.drawing; }
   /// Adds a file or folder that a person has chosen for the task, and chooses it. Throws InputError.
   void add(const std::filesystem::path& path);
+  /// Takes a patient that could not be loaded from the list, if a person has opened it.
+  void withdraw(const CaseSource& patient);
   /// Lists the cases of the person's own folder, in place of the one before; none for an empty path. Cases that come
   /// and go later are listed by update(). Throws InputError if it cannot be listed.
   void list_cases_in(const std::filesystem::path& folder);

@@ -172,8 +172,14 @@ void Trainer::stop_loading() {
 
 void Trainer::take_over_loaded() {
   const std::unique_ptr<Loading> loaded = std::move(loading_);
-  attempt([&] { begin(loaded->take(), requested_); });
+  std::shared_ptr<const LoadedCase> patient;
+  const bool loads = attempt([&] { patient = loaded->take(); });
+  if (loads) attempt([&] { begin(std::move(patient), requested_); });
   give_up_choice();
+  if (StartPage* page = start_page(); page && !loads && requested_.source.scenario.empty()) {
+    page->withdraw(requested_.source);
+    opened_ = page->opened_patients();
+  }
   // A trainer whose command line names something unusable goes on with the start page, and with nothing but the exam if
   // that was asked for.
   if (std::holds_alternative<Idle>(mode_) && !in_exam()) show_start_page();

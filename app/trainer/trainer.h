@@ -266,6 +266,8 @@ public:
   /// Returns the errors that nobody has acknowledged yet, as sentences, the oldest first.
   std::deque<std::string>& problems() { return problems_; }
   const std::deque<std::string>& problems() const { return problems_; }
+  /// Returns what sends to other programs; nullptr when nothing does.
+  const IgtlFeed* feed() const { return feed_.get(); }
   /// Returns what has gone well since the last call, such as the file of a recording.
   std::vector<Notice> take_notices() { return std::exchange(notices_, {}); }
   /// Returns sentences on why the tracker's calibration may be wrong; empty if nothing speaks against it.

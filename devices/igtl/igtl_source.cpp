@@ -266,6 +266,7 @@ ClientRequest client_request(const TrackerUri& uri) {
   request.host = rest.substr(bracket ? 1 : 0, host_end - (bracket ? 1 : 0));
   if (request.host.empty()) refuse("it names no host");
   if (request.host.size() > 253) refuse("a host's name has 253 characters at most");
+  if (request.host.find_first_of(" \t") != std::string::npos) refuse("a host's name has no spaces");
   rest = rest.substr(host_end + (bracket ? 1 : 0));
   if (!rest.empty()) {
     const char *begin = rest.data() + 1, *end = rest.data() + rest.size();

@@ -75,6 +75,7 @@ TEST_CASE("a tracker that cannot be opened is refused with what to write instead
       {"igtl:localhost", {"no '//' before the host", "'igtl://localhost:18944/ProbeToTracker'"}},
       {"igtl://", {"names no host"}},
       {"igtl://:18944", {"names no host"}},
+      {"igtl://two words:18944", {"has no spaces"}},
       {"igtl://host:", {"':' is not a port from 1 to 65535"}},
       {"igtl://host:0", {"':0' is not a port"}},
       {"igtl://host:65536", {"':65536' is not a port"}},

@@ -1,6 +1,7 @@
 #include "app/panels/start/start_list.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace insonate::ui {
 
@@ -13,6 +14,11 @@ std::optional<std::size_t> draw_list(const Theme& theme, const char* id, const R
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, bar);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
   ImGui::BeginChild(id, {where.w, where.h});
+  int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("chosen"), -1);
+  if (chosen && std::exchange(shown, int(*chosen)) != int(*chosen)) {
+    const float top = height * float(*chosen);
+    ImGui::SetScrollY(std::clamp(ImGui::GetScrollY(), top + height - where.h, std::max(top, top + height - where.h)));
+  }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float total = height * float(rows.size());
   const float width = where.w - (total > where.h ? bar : 0);

@@ -15,8 +15,8 @@ struct ListRow {
   std::string id, title, about;
 };
 
-/// Draws a list that scrolls, one line per row. Returns which row was clicked. Adds the positions of the rows that are
-/// seen to `places`.
+/// Draws a list that scrolls, one line per row. It scrolls to a row that has been chosen by other means. Returns which
+/// row was clicked. Adds the positions of the rows that are seen to `places`.
 std::optional<std::size_t> draw_list(const Theme& theme, const char* id, const Rect& where,
                                      const std::vector<ListRow>& rows, std::optional<std::size_t> chosen,
                                      std::map<std::string, Rect>& places);

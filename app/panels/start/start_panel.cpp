@@ -7,6 +7,7 @@
 #include "app/panels/widgets/choice_rows.h"
 #include "app/panels/widgets/scroll_area.h"
 #include "scenarios/words.h"
+#include "sim/core/text.h"
 
 namespace insonate::ui {
 namespace {
@@ -190,8 +191,8 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
   rest.take_top(theme.px(8));
   if (std::exchange(address_was_open_, address_.is_open()) && !address_.is_open() && !typed_address_.empty())
     attempt([&] {
-      const bool whole = typed_address_.find(':') != std::string::npos && typed_address_.starts_with("igtl:");
-      page.choose_tracker(whole ? typed_address_ : "igtl://" + typed_address_);
+      const std::string address(trimmed(typed_address_));
+      page.choose_tracker(address.starts_with("igtl:") ? address : "igtl://" + address);
       typed_address_.clear();
     });
   const Rect field = rest.take_top(theme.px(36));

@@ -155,7 +155,11 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
   if (button(theme, "beside", places["beside"], "Beside the skilled scan",
              expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
-  if (!expert) draw_tooltip(theme, places["beside"], "There is no skilled scan of this run's exam to compare it with.");
+  if (!expert)
+    draw_tooltip(theme, places["beside"],
+                 page.run < page.runs().size() && page.runs()[page.run].is_skilled
+                     ? "This is the skilled scan of its exam."
+                     : "There is no skilled scan of this run's exam to compare it with.");
   if (page.run < page.runs().size() && page.runs()[page.run].needs_scenario()) {
     Rect of = rest.take_bottom(theme.px(kChoiceRow + kSecondChoiceRow));
     rest.take_bottom(theme.px(10));

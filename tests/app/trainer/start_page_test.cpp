@@ -154,7 +154,9 @@ TEST_CASE("a recorded scan is offered beside the skilled scan of its exam") {
   const Options poor = of("aorta_poor.igs.mha");
   CHECK(poor.scenario.filename() == "aorta.toml");
   CHECK(poor.replay.beside_log.filename() == "aorta_good.igs.mha");
+  CHECK_FALSE(page.runs()[page.run].is_skilled);
   CHECK(of("aorta_good.igs.mha").replay.beside_log.empty());
+  CHECK(page.runs()[page.run].is_skilled);
 }
 
 TEST_CASE("an exam needs a learner who has not taken it, and the page says so") {

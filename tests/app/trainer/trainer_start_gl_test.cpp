@@ -236,6 +236,29 @@ TEST_CASE("a command line that names nothing usable leads to the start page, wit
   CHECK(trainer.start_page());
 }
 
+TEST_CASE("a CT is listed once, and no longer when it cannot be used") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  REQUIRE(trainer.start_page());
+  const std::size_t before = trainer.start_page()->patients().size();
+  const auto broken = folder.file("broken.nii.gz", "\x1f\x8b not really");
+  for (int time = 0; time < 2; ++time) trainer.start_page()->add(broken);
+  CHECK(trainer.start_page()->patients().size() == before + 1);
+  CHECK(trainer.start_page()->patient == before);
+
+  trainer.begin_chosen();
+  trainer.finish_loading();
+  CHECK(trainer.problems().size() == 1);
+  REQUIRE(trainer.start_page());
+  CHECK(trainer.start_page()->patients().size() == before);
+  CHECK(trainer.start_page()->patient == 0);
+}
+
 TEST_CASE("settings are taken on the start page and kept, and a database that cannot be opened is not taken") {
   const Patience patience;
   const test::TestContext context;
