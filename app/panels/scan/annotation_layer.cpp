@@ -93,8 +93,9 @@ ImU32 ink_of(const ShownAnnotations::Value& value) {
   return colour::kAccent;
 }
 
-void draw_values(const Theme& theme, const Rect& panel, const std::vector<ShownAnnotations::Value>& rows) {
-  if (rows.empty()) return;
+/// Returns the upper end of the box.
+float draw_values(const Theme& theme, const Rect& panel, const std::vector<ShownAnnotations::Value>& rows) {
+  if (rows.empty()) return panel.y + panel.h;
   float names = 0, texts = 0;
   for (const ShownAnnotations::Value& row : rows) {
     names = std::max(names, text_width(theme.small_text, row.name));
@@ -113,16 +114,17 @@ void draw_values(const Theme& theme, const Rect& panel, const std::vector<ShownA
     draw_text(line, theme.small_text, ink == colour::kText ? colour::kMuted : ink, row.name);
     draw_text(line, theme.strong, ink, row.text, Align::right);
   }
+  return placed.y;
 }
 
 }  // namespace
 
-void draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
-                      const ShownAnnotations& annotations) {
+float draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
+                       const ShownAnnotations& annotations) {
   for (const ShownAnnotations::Placed& placed : annotations.placed)
     draw_placed(theme, plane, placed.action, placed.in_hand ? colour::kAccent : colour::kText);
   if (annotations.unnamed_place) draw_place(theme, plane, *annotations.unnamed_place, colour::kAccent, "?");
-  draw_values(theme, panel, annotations.values);
+  return draw_values(theme, panel, annotations.values);
 }
 
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,

@@ -12,9 +12,9 @@
 namespace insonate::ui {
 
 /// Draws the annotations of the ultrasound picture as ultrasound machines draw them: small crosses, a dotted line
-/// between them, and a box of values in the corner.
-void draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
-                      const ShownAnnotations& annotations);
+/// between them, and a box of values in the corner. Returns how far down the box leaves the panel's side free.
+float draw_annotations(const Theme& theme, const Rect& panel, const PlaneOnScreen& plane,
+                       const ShownAnnotations& annotations);
 
 /// Draws the buttons beside the frozen picture: measuring tools, undo, clear. Adds their positions to `places`.
 void draw_picture_tools(const Theme& theme, const Rect& panel, Session& session, PictureTools& tools,

@@ -35,11 +35,10 @@ void draw_depth_scale(const Theme& theme, const Rect& panel, const PlaneOnScreen
                 theme.small_text, colour::kFaint, in_mm ? "mm" : "cm", Align::right);
 }
 
-void draw_grey_scale(const Theme& theme, const Rect& panel, double dynamic_range_db) {
-  // Below the texts and the state, as far as a small panel has room there.
-  const float top = std::max(panel.h * 0.36f, theme.px(196));
-  const Rect bar{panel.x + theme.px(16), panel.y + top, theme.px(12),
-                 std::min(panel.h * 0.28f, panel.h - theme.px(16) - top)};
+/// Draws the scale below the texts and the state, as far as there is room above `bottom`.
+void draw_grey_scale(const Theme& theme, const Rect& panel, float bottom, double dynamic_range_db) {
+  const float top = panel.y + std::max(panel.h * 0.36f, theme.px(196));
+  const Rect bar{panel.x + theme.px(16), top, theme.px(12), std::min(panel.h * 0.28f, bottom - theme.px(16) - top)};
   if (bar.h < theme.px(40)) return;
   ImGui::GetWindowDrawList()->AddRectFilledMultiColor(bar.min(), bar.max(), IM_COL32_WHITE, IM_COL32_WHITE,
                                                       IM_COL32_BLACK, IM_COL32_BLACK);
@@ -157,9 +156,9 @@ void smooth_edge(const PlaneOnScreen& plane, const Probe& probe, double depth_mm
   list->PathStroke(colour::kImage, ImDrawFlags_Closed, kThickness);
 }
 
-/// Draws the picture with its scales. Returns where it lies on the screen.
+/// Draws the picture with its scales and annotations. Returns where it lies on the screen.
 PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
-                           const Machine& machine) {
+                           const Machine& machine, const ShownAnnotations& annotations) {
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   const bool mirrored = theme.look().marker == MarkerSide::left;
@@ -168,8 +167,9 @@ PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Text
                                        colour::of(theme.look().tint));
   smooth_edge(plane, machine.transducer(), machine.depth_mm);
   draw_depth_scale(theme, panel, plane, machine.depth_mm);
-  draw_grey_scale(theme, panel, machine.dynamic_range_db);
   draw_marker(theme, plane, machine.transducer());
+  const float bottom = draw_annotations(theme, panel, plane, annotations);
+  draw_grey_scale(theme, panel, bottom, machine.dynamic_range_db);
   return plane;
 }
 
@@ -217,8 +217,8 @@ bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
   if (const gl::Texture* picture = pictures.ultrasound()) {
-    const PlaneOnScreen plane = draw_picture(theme, panel, *picture, pictures, session.machine());
-    draw_annotations(theme, panel, plane, shown_annotations(session, tools));
+    const PlaneOnScreen plane =
+        draw_picture(theme, panel, *picture, pictures, session.machine(), shown_annotations(session, tools));
     draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
     take_mouse(theme, area, session, plane, tools);
     double_clicked = is_double_clicked() && !PictureTools::ready(session);
@@ -241,7 +241,7 @@ bool UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const st
                                  std::optional<double> lost_for_s, const Pictures& pictures) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.ultrasound())
-    draw_annotations(theme, panel, draw_picture(theme, panel, *picture, pictures, machine), annotations);
+    draw_picture(theme, panel, *picture, pictures, machine, annotations);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
   const Rect below = draw_annotations(theme, panel, patient, machine);
