@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -23,8 +24,10 @@ constexpr std::size_t kFineStarts = 4;
 constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are as wide as a pixel
 constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one, or half the search range if less
 constexpr double kBasin_deg = 8;
-constexpr double kAmbiguous = 0.9;  // of the similarity
-constexpr int kClimbs = 3;          // most repetitions of the last search
+constexpr double kAmbiguous = 0.9;                         // of the similarity
+constexpr int kClimbs = 3;                                 // most repetitions of the last search
+constexpr std::size_t kAround = 128, kAroundFollowed = 8;  // places around the best one, at the end
+constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5;
 constexpr double kMostStretch = 0.15;
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
@@ -63,15 +66,32 @@ struct Run {
 
   double basin_mm() const { return settings.search_mm > 0 ? std::min(kBasin_mm, settings.search_mm / 2) : kBasin_mm; }
 
-  // Returns the best, of which no two lie in one basin.
-  std::vector<Optimum> distinct(std::vector<Optimum> ends, std::size_t most) const {
+  // Returns the best, of which no two lie in one basin, or nearer to each other than `least_mm`.
+  std::vector<Optimum> distinct(std::vector<Optimum> ends, std::size_t most,
+                                std::optional<double> least_mm = std::nullopt) const {
     std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
     std::vector<Optimum> kept;
     for (Optimum& end : ends)
-      if (kept.size() < most &&
-          std::ranges::none_of(kept, [&](const Optimum& k) { return apart(k.at, end.at) < basin_mm(); }))
+      if (kept.size() < most && std::ranges::none_of(kept, [&](const Optimum& k) {
+            return apart(k.at, end.at) < least_mm.value_or(basin_mm());
+          }))
         kept.push_back(std::move(end));
     return kept;
+  }
+
+  // Looks for a higher maximum beside the best place. There may be several within one basin, of which the searches so
+  // far have found any.
+  Optimum look_around(const Optimum& best, const EvaluateAll& evaluate) const {
+    std::vector<Parameters> around =
+        scattered_motions(0, kAround, kAround_mm, glm::radians(kAround_deg) * result.motion.radius_mm);
+    for (Parameters& each : around)
+      for (std::size_t i = 0; i < each.size(); ++i) each[i] += best.at[i];
+    const std::vector<double> values = evaluate(around);
+    std::vector<Optimum> scattered;
+    for (std::size_t i = 0; i < around.size(); ++i) scattered.push_back({std::move(around[i]), values[i], 1, true});
+    std::vector<Parameters> followed{best.at};
+    for (const Optimum& each : distinct(std::move(scattered), kAroundFollowed, kApart_mm)) followed.push_back(each.at);
+    return distinct(maximise_from(followed, evaluate, search(1, 0.2, 80)), 1).front();
   }
 
   // Goes on from an end that is not a maximum: small steps may stop on the unevenness of a slope. Returns the
@@ -198,7 +218,8 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     if (!wanders) break;
     if (run.confirmed && (rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value)) break;
   }
-  Optimum end = maximise_from({rough.front().at}, fine, run.search(0.7, 0.01, 250)).front();
+  const Optimum best = wanders ? run.look_around(rough.front(), fine) : rough.front();
+  Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
   if (rough.size() > 1) result.runner_up = rough[1].value;
   EvaluateAll last = fine;
   if (settings.freedom == Freedom::affine) {

@@ -70,6 +70,22 @@ TEST_CASE("a synthetic sweep of model S is registered with the body that it show
         }).similarity >= Approx(found.similarity_after).margin(1e-6));
 }
 
+// The similarity is uneven: local searches alone end up to 1.6 % below the highest place around.
+TEST_CASE("registrations from several starts end about equally high") {
+  const Fixture f;
+  SweepRegistrar registrar(f.body, f.sweep, f.settings);
+  double lowest = 1, highest = 0;
+  for (const int i : {4, 5, 8, 10}) {
+    const auto random = [&](int k) { return 2 * unit_float(hash(std::uint32_t(10 * i + k))) - 1; };
+    const SweepRegistration found =
+        registrar.from(f.start(8.0 * glm::dvec3(random(0), random(1), random(2)), 8 * random(3)));
+    lowest = std::min(lowest, found.similarity_after);
+    highest = std::max(highest, found.similarity_after);
+    CHECK(f.error(found) < 2);
+  }
+  CHECK(lowest > 0.99 * highest);
+}
+
 TEST_CASE("equal registrations give equal results") {
   const Fixture f;
   const SweepRegistration one = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3)),
