@@ -18,7 +18,9 @@ void PictureMaker::set_patient(const std::string& source, const Case& subject, c
 void PictureMaker::draw(Shot&& shot, const Take& take) {
   if (readback_.full()) take_next(take);
   simulator_.set_probe(shot.probe, shot.depth_mm);
-  simulator_.set_settings(shot.settings);
+  Settings settings = shot.settings;
+  settings.exact_filter = settings.exact_filter || has_coarse_filter_;
+  simulator_.set_settings(settings);
   // Another pose first, so that even a shot from the same pose is traversed anew: what skipping left out under the
   // settings before could show by a grey level.
   Pose elsewhere = shot.patient_from_probe;

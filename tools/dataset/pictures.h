@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/core/image.h"
+#include "sim/gl/filter_error.h"
 #include "sim/gl/headless_context.h"
 #include "sim/gl/readback.h"
 #include "sim/imaging/simulator.h"
@@ -16,6 +17,7 @@
 namespace insonate {
 
 /// Draws the pictures of shots, on an OpenGL context of its own. While one is being drawn, the one before is read back.
+/// Where the device's own filter is coarse, volumes are filtered exactly, so that all devices draw the same.
 class PictureMaker {
 public:
   /// Receives a shot and its grey picture, columns towards the marker.
@@ -38,6 +40,7 @@ private:
   void take_next(const Take& take);
 
   gl::HeadlessContext context_;
+  const bool has_coarse_filter_ = gl::measure_filter().is_coarse();
   gl::Simulator simulator_;
   gl::Readback readback_;
   std::deque<Shot> under_way_;
