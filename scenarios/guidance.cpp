@@ -46,21 +46,22 @@ GuidingMove move_to(const Pose& patient_from_probe, const Pose& reference) {
   return move;
 }
 
-std::vector<std::string> in_words(const GuidingMove& move, const Pose& patient_from_probe) {
+std::vector<std::string> in_words(const GuidingMove& move, const Pose& patient_from_probe,
+                                  const GuidingLimits& limits) {
   std::vector<std::string> sentences;
   const auto degrees = [](double value) { return fixed(std::abs(value), 0) + "\u00b0"; };
-  if (const double slide = glm::length(move.slide_mm); slide > kGuidedSlide_mm)
+  if (const double slide = glm::length(move.slide_mm); slide > limits.slide_mm)
     sentences.push_back("Slide " + fixed(slide, 0) + " mm towards " + direction_words(move.slide_mm) + ".");
-  if (std::abs(move.rotation_deg) > kGuidedTurn_deg)
+  if (std::abs(move.rotation_deg) > limits.turn_deg)
     sentences.push_back("Rotate " + degrees(move.rotation_deg) +
                         (move.rotation_deg > 0 ? " clockwise." : " counter-clockwise."));
-  if (std::abs(move.tilt_deg) > kGuidedTurn_deg) {
+  if (std::abs(move.tilt_deg) > limits.turn_deg) {
     const double rotation = glm::radians(move.rotation_deg);
     const glm::dvec3 elevation = patient_from_probe.rotation * glm::dvec3(std::sin(rotation), 0, std::cos(rotation));
     const glm::dvec3 towards = elevation * (move.tilt_deg > 0 ? 1.0 : -1.0);
     sentences.push_back("Tilt " + degrees(move.tilt_deg) + ", the beam towards " + direction_words(towards) + ".");
   }
-  if (std::abs(move.rock_deg) > kGuidedTurn_deg)
+  if (std::abs(move.rock_deg) > limits.turn_deg)
     sentences.push_back("Rock " + degrees(move.rock_deg) + ", the beam " +
                         (move.rock_deg > 0 ? "away from the marker." : "towards the marker."));
   return sentences;

@@ -24,10 +24,13 @@ struct GuidingMove {
 GuidingMove move_to(const Pose& patient_from_probe, const Pose& reference);
 
 /// Movements up to these limits count as no difference: in_words() does not mention them.
-inline constexpr double kGuidedSlide_mm = 5, kGuidedTurn_deg = 5;
+struct GuidingLimits {
+  double slide_mm = 5, turn_deg = 5;
+};
 
 /// Returns the movement as a teacher gives it at the bedside, one sentence for each part above its limit, in the
 /// order of execution: "Slide 32 mm towards the head." Returns nothing if the probe is in place.
-std::vector<std::string> in_words(const GuidingMove& move, const Pose& patient_from_probe);
+std::vector<std::string> in_words(const GuidingMove& move, const Pose& patient_from_probe,
+                                  const GuidingLimits& limits = {});
 
 }  // namespace insonate

@@ -22,19 +22,36 @@ std::string arrows(const glm::dvec2& around_and_up_mm) {
 }
 
 /// Returns the keys of each part that in_words() mentions, as Keyboard moves the probe.
-std::vector<std::string> keys_of(const GuidingMove& move, const Pose& pose) {
+std::vector<std::string> keys_of(const GuidingMove& move, const Pose& pose, const GuidingLimits& limits) {
   std::vector<std::string> keys;
-  if (glm::length(move.slide_mm) > kGuidedSlide_mm) {
+  if (glm::length(move.slide_mm) > limits.slide_mm) {
     const auto along_face = [&](const glm::dvec2& key) {
       const glm::dvec2 mm = ProbeHand::slide_in_patient(pose, key);
       return glm::dot(move.slide_mm, pose.rotation * glm::dvec3(mm.x, 0, mm.y));
     };
     keys.push_back(arrows({along_face({1, 0}), along_face({0, 1})}));
   }
-  if (std::abs(move.rotation_deg) > kGuidedTurn_deg) keys.emplace_back(move.rotation_deg > 0 ? "E" : "Q");
-  if (std::abs(move.tilt_deg) > kGuidedTurn_deg) keys.emplace_back(move.tilt_deg > 0 ? "D" : "A");
-  if (std::abs(move.rock_deg) > kGuidedTurn_deg) keys.emplace_back(move.rock_deg > 0 ? "W" : "S");
+  if (std::abs(move.rotation_deg) > limits.turn_deg) keys.emplace_back(move.rotation_deg > 0 ? "E" : "Q");
+  if (std::abs(move.tilt_deg) > limits.turn_deg) keys.emplace_back(move.tilt_deg > 0 ? "D" : "A");
+  if (std::abs(move.rock_deg) > limits.turn_deg) keys.emplace_back(move.rock_deg > 0 ? "W" : "S");
   return keys;
+}
+
+constexpr GuidingLimits kFinely{1, 1};
+
+/// Fills in the movements that are above the limits.
+void advise(Guiding& guiding, const Session& session, const Pose& pose, const GuidingLimits& limits) {
+  const Pose& reference = guiding.view->patient_from_probe;
+  GuidingMove move = move_to(pose, reference);
+  Pose slid_to = pose;
+  // A hand slides over the skin and keeps the probe's angle to it, so the turns are those that are left then.
+  if (const auto slide = ProbeHand(session.loaded_case().subject.ct).slide_to(pose, reference)) {
+    if (glm::length(slide->way_mm) > limits.slide_mm) slid_to = slide->pose;
+    move = move_to(slid_to, reference);
+    move.slide_mm = slide->way_mm;
+  }
+  guiding.advice = in_words(move, slid_to, limits);
+  if (session.holder() == Holder::learner) guiding.keys = keys_of(move, pose, limits);
 }
 
 }  // namespace
@@ -97,21 +114,18 @@ std::optional<Guiding> Guide::now(const Session& session) const {
   if (!view || !pose) return std::nullopt;
   Guiding guiding;
   guiding.view = view;
-  GuidingMove move = move_to(*pose, view->patient_from_probe);
-  Pose slid_to = *pose;
-  // A hand slides over the skin and keeps the probe's angle to it, so the turns are those that are left then.
-  if (const auto slide = ProbeHand(session.loaded_case().subject.ct).slide_to(*pose, view->patient_from_probe)) {
-    if (glm::length(slide->way_mm) > kGuidedSlide_mm) slid_to = slide->pose;
-    move = move_to(slid_to, view->patient_from_probe);
-    move.slide_mm = slide->way_mm;
+  // A step has its own tolerances. Where they are not met yet, the guide leads on to the very place.
+  const LiveExam* live = of_step ? &session.runner()->live() : nullptr;
+  advise(guiding, session, *pose, {});
+  if (live && !live->within_tolerance && guiding.advice.empty()) {
+    advise(guiding, session, *pose, kFinely);
+    if (guiding.advice.empty()) guiding.advice = {"The probe is in place: look at depth, probe and knobs."};
   }
-  guiding.advice = in_words(move, slid_to);
-  if (session.holder() == Holder::learner) guiding.keys = keys_of(move, *pose);
+  guiding.there = (live && live->within_tolerance) || guiding.advice.empty();
   const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];
   guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));
   const double cosine = glm::dot(pose->rotation[2], normal);
   guiding.plane_angle_deg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
-  guiding.there = guiding.advice.empty();
   return guiding;
 }
 

@@ -63,10 +63,10 @@ TEST_CASE("the movements of the advice, one after the other about the probe's ow
     const bool slid = !sentences.empty() && sentences.front().find("Slide") == 0;
     of_three_turns += sentences.size() - std::size_t(slid) == 3;
     // Each turn that is not mentioned is at most 5 degrees, and each of the others is rounded to a degree.
-    CHECK(left_deg() <= 3 * kGuidedTurn_deg);
+    CHECK(left_deg() <= 3 * GuidingLimits().turn_deg);
     if (sentences.size() - std::size_t(slid) == 3) CHECK(left_deg() < 1.51);
     const glm::dvec3 off = to.translation - probe.translation, beam = to.rotation[1];
-    CHECK(glm::length(off - glm::dot(off, beam) * beam) <= kGuidedSlide_mm);
+    CHECK(glm::length(off - glm::dot(off, beam) * beam) <= GuidingLimits().slide_mm);
   }
   CHECK(of_three_turns > 200);
 }

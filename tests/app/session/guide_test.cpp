@@ -183,8 +183,8 @@ TEST_CASE("who does what the guide lists, one after the other over the skin, arr
     }
     const Guiding arrived = put(probe);
     CAPTURE(arrived.advice);
-    CHECK(glm::distance(probe.translation, goal.translation) < kGuidedSlide_mm);
-    CHECK(arrived.plane_angle_deg < 2 * kGuidedTurn_deg);
+    CHECK(glm::distance(probe.translation, goal.translation) < GuidingLimits().slide_mm);
+    CHECK(arrived.plane_angle_deg < 2 * GuidingLimits().turn_deg);
   }
 }
 
@@ -263,6 +263,44 @@ TEST_CASE("the result of an attempt holds how long the guide was shown, also if 
   REQUIRE(session.result());
   CHECK(session.result()->steps[0].guide_times == 1);
   CHECK(session.result()->steps[0].guide_s == Approx(1.5).margin(0.11));
+}
+
+TEST_CASE("in a step the guide leads on until the step's own tolerances are met") {
+  std::string strict = kTinyScenario;
+  strict.replace(strict.find("plane_distance_mm = 8"), 21, "plane_distance_mm = 2");
+  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
+  loaded_case->scenario = parse_scenario(strict, "exam.toml");
+  Session session = by_hand(loaded_case);
+  Guide guide;
+  guide.turn(true);
+  double now_s = 0;
+  const auto at = [&](double off_mm) {
+    session.move_probe([&](const ProbeHand&, const Pose&) { return at_z(off_mm); });
+    for (int i = 0; i < 3; ++i) session.advance(now_s += 0.1);
+    return guide.now(session).value();
+  };
+  const Guiding near = at(-3);
+  CHECK_FALSE(near.there);
+  CHECK(near.advice == std::vector<std::string>{"Slide 3 mm towards the head."});
+  CHECK(near.keys.size() == 1);
+  CHECK(at(-1.5).there);
+
+  CHECK(at(0).there);
+}
+
+TEST_CASE("where the probe is in place and the step asks for more, the guide does not say to hold still") {
+  std::string more = kTinyScenario;
+  more.replace(more.find("plane_distance_mm = 8"), 21, "target_in_view_percent = 150");
+  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
+  loaded_case->scenario = parse_scenario(more, "exam.toml");
+  Session session = by_hand(loaded_case);
+  Guide guide;
+  guide.turn(true);
+  session.move_probe([&](const ProbeHand&, const Pose&) { return at_z(0); });
+  for (int i = 1; i < 4; ++i) session.advance(0.1 * i);
+  REQUIRE(guide.now(session));
+  CHECK_FALSE(guide.now(session)->there);
+  CHECK(guide.now(session)->advice.front().starts_with("The probe is in place"));
 }
 
 TEST_CASE("under strict rules there is no guide, not even after the exam") {
