@@ -284,8 +284,10 @@ void Screen::draw_effects_button(Trainer& trainer, Rect& row) {
   if (!trainer.session() || !trainer.session()->shows_anatomy()) return;
   const Rect where = places_["effects"] = row.take_right(theme_.px(78));
   row.take_right(theme_.px(4));
+  const std::string why_not = trainer.session()->why_not(ActionKind::effect);
   if (button(theme_, "effects", where, "Effects", aside_ == Aside::effects ? ButtonKind::chosen : ButtonKind::normal,
-             true, "Turns the effects of the picture off and on, one by one  (F8)"))
+             why_not.empty() || aside_ == Aside::effects,
+             why_not.empty() ? "Turns the effects of the picture off and on, one by one  (F8)" : why_not.c_str()))
     toggle_effects(trainer);
 }
 
@@ -323,6 +325,8 @@ bool Screen::asked_before(double& last_s) {
 void Screen::toggle_effects(Trainer& trainer) {
   if (takes_exam(trainer))
     show_note("This exam counts: effects are for practice");
+  else if (trainer.session() && aside_ != Aside::effects && !trainer.session()->why_not(ActionKind::effect).empty())
+    show_note(trainer.session()->why_not(ActionKind::effect));
   else if (trainer.session())
     toggle(Aside::effects, trainer);
 }
@@ -334,6 +338,8 @@ void Screen::begin_setup(Trainer& trainer) {
     show_note("Leave these steps first (Escape): the set-up would end them");
   else if (trainer.loses_sweep() && !asked_before(asked_to_set_up_s_))
     show_note("The set-up may lose the sweep: save it (U, then S), or press F2 once more");
+  else if (trainer.setup_leaves() && !asked_before(asked_to_set_up_s_))
+    show_note("Nothing here has a sensor to set up. F2 once more leaves the scan for the choice of a tracker");
   else
     trainer.begin_setup();
 }

@@ -130,8 +130,10 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
 
   const bool shows_slice = anatomy && sizes.slice_width > 0, shows_blend = anatomy && sizes.blend_width > 0,
              shows_volume = sizes.volume_width > 0;
-  std::array<bool, 6> shown{shows_slice, shows_blend, shows_volume};
-  for (std::size_t i = 0; i < axis_slices_.size(); ++i) shown[3 + i] = anatomy && sizes.axis_slices[i].x > 0;
+  // Slice and blend have one turn: beside each other they must show the same moment.
+  constexpr std::size_t kOfPlane = 0, kVolume = 1, kAxes = 2;
+  std::array<bool, 5> shown{shows_slice || shows_blend, shows_volume};
+  for (std::size_t i = 0; i < axis_slices_.size(); ++i) shown[kAxes + i] = anatomy && sizes.axis_slices[i].x > 0;
   const bool next = ++calls_since_turn_ >= effort.calls_per_turn;
   for (std::size_t i = 0; next && i < shown.size(); ++i) {
     turn_ = (turn_ + 1) % shown.size();
@@ -149,15 +151,17 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   };
   if (!shows_slice) slice_ = nullptr;
   style.scale = scale(sizes.slice_width, sizes.slice_height);
-  if (is_due(0, slice_)) slice_ = &slice_view_.render(*patient_, plane_, style);
+  const bool of_plane_due =
+      is_due(kOfPlane, shows_slice ? slice_ : blend_) || (shows_slice && !slice_) || (shows_blend && !blend_);
+  if (shows_slice && of_plane_due) slice_ = &slice_view_.render(*patient_, plane_, style);
   if (!shows_blend) blend_ = nullptr;
   style.scale = scale(sizes.blend_width, sizes.blend_height);
   style.ultrasound = blend_share;
   style.ultrasound_white = white_of(ct.blend_colour);
-  if (is_due(1, blend_)) blend_ = &blend_view_.render(*patient_, plane_, style);
+  if (shows_blend && of_plane_due) blend_ = &blend_view_.render(*patient_, plane_, style);
   for (std::size_t i = 0; i < axis_slices_.size(); ++i) {
-    if (!shown[3 + i]) axis_slices_[i].picture = nullptr;
-    if (is_due(3 + i, axis_slices_[i].picture)) draw_axis_slice(view::SliceAxis(i), sizes.axis_slices[i]);
+    if (!shown[kAxes + i]) axis_slices_[i].picture = nullptr;
+    if (is_due(kAxes + i, axis_slices_[i].picture)) draw_axis_slice(view::SliceAxis(i), sizes.axis_slices[i]);
   }
   if (times_) times_->end(FramePart::slices);
 
@@ -174,7 +178,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   }
   body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (!shows_volume) volume_ = nullptr;
-  if (is_due(2, volume_)) {
+  if (is_due(kVolume, volume_)) {
     volume_camera_ = camera;
     volume_pose_ = *pose;
     volume_ = &volume_view_.render(sizes.volume_width, std::max(sizes.volume_height, 1), *patient_, camera, plane_,

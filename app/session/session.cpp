@@ -10,6 +10,7 @@
 #include "devices/replay/read_log.h"
 #include "scenarios/words.h"
 #include "sim/core/input_error.h"
+#include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
 namespace {
@@ -182,6 +183,22 @@ void Session::give_back_probe() {
   hold(Holder::tracker);
   if (loaded_case_->scenario) activity_ = Activity::exam;
   begin_attempt();
+}
+
+bool Session::looks_past_ct() const {
+  if (!shown_pose_) return false;
+  const Grid& grid = loaded_case_->subject.ct.grid;
+  int axis = 0;  // from feet to head
+  for (int other : {1, 2})
+    if (std::abs(grid.direction[other].z) > std::abs(grid.direction[axis].z)) axis = other;
+  constexpr int kPoints = 8;
+  int past = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const glm::dvec3 point = shown_pose_->point({0, machine_.depth_mm * (i + 0.5) / kPoints, 0});
+    const double index = grid.index_from_patient(point)[axis], dark = 0.5 * kEnd_mm / grid.spacing[axis];
+    past += index < dark || index > grid.size[axis] - 1 - dark;
+  }
+  return past > kPoints / 2;
 }
 
 void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion) {

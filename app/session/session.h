@@ -114,6 +114,9 @@ public:
   void move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion);
   /// Returns whether a motion has just found no skin to go on, as at the end of the CT.
   bool stopped_at_edge() const { return now_s_ < edge_shown_until_s_; }
+  /// Returns whether most of the picture's central beam lies where the CT ends towards head or feet, so that the
+  /// picture is dark.
+  bool looks_past_ct() const;
 
   /// Returns the pose of the picture. With a live tracker this is the pose at the time of the picture. With other
   /// sources it is the newest usable pose, so that a replay looks the same every time. While the picture is frozen it

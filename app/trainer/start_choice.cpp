@@ -37,7 +37,8 @@ std::string StartPage::why_no_exam() const {
   if (!scenario) return "Choose an exam.";
   if (database_.empty()) return "There is no database to keep the attempt in: start the trainer with --results.";
   if (learner() == kNobodyInParticular)
-    return "An exam is kept under a learner's id: say on the right who is learning.";
+    return learner_is_typed ? "Enter takes the id that is typed on the right."
+                            : "An exam is kept under a learner's id: say on the right who is learning.";
   if (const std::int64_t number = taken_in(scenarios_[*scenario]))
     return learner() + " has taken this exam already, as attempt " + std::to_string(number) +
            ". Choose another, or practise.";

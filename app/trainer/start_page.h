@@ -131,6 +131,7 @@ public:
   /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid. Then nothing
   /// that a learner does can begin until one is chosen.
   void choose_learner(const std::string& id);
+  bool learner_is_typed = false;  ///< an id is being typed, and not taken yet
   /// Returns the id that was refused last; empty once a learner is chosen.
   const std::string& refused_learner() const { return refused_learner_; }
   /// The set-up's files; empty: what is built in. Throw InputError for a file that cannot be used.

@@ -203,6 +203,8 @@ public:
     const auto* mode = std::get_if<SettingUp>(&mode_);
     return mode ? mode->wizard.get() : nullptr;
   }
+  /// Returns whether begin_setup() leaves the session, because no sensor is used there.
+  bool setup_leaves() const;
   /// Begins to set up the session's tracker. If it has no sensor, shows where the start page lets another one be
   /// chosen. The set-up begins by itself if the command line names a calibration that is not complete.
   void begin_setup();

@@ -112,9 +112,13 @@ bool Trainer::needs_setup(const Request& request) const {
          !why_incomplete(read_calibration(options_.calibration)).empty();
 }
 
+bool Trainer::setup_leaves() const {
+  return session() && !can_be_set_up(current_);
+}
+
 void Trainer::begin_setup() {
   if (setup() || replay() || in_exam()) return;
-  if (session() && !can_be_set_up(current_)) show_start_page();
+  if (setup_leaves()) show_start_page();
   if (StartPage* page = start_page()) {
     page->task = Task::setup;
     return;

@@ -23,10 +23,11 @@ bool Trainer::loses_by_leaving() const {
 
 std::string_view Trainer::lost_sweep() const {
   if (!session()) return "";
-  if (sweep_.running()) return "The sweep that runs is lost. To keep it: stay, then T ends it, and U and S save it.";
+  if (sweep_.running())
+    return "The sweep that runs will be lost. To keep it: stay, then T ends it, and U and S save it.";
   if (sweep_.reconstructing())
-    return "The sweep's volume is being made, and is lost. Stay until it is there, then U and S.";
-  return swept_ && !swept_is_saved_ ? "The volume of the last sweep is lost. To save it: stay, then U and S." : "";
+    return "The sweep's volume is being made, and will be lost. Stay until it is there, then U and S.";
+  return swept_ && !swept_is_saved_ ? "The volume of the last sweep will be lost. To save it: stay, then U and S." : "";
 }
 
 void Trainer::leave() {

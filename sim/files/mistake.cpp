@@ -41,7 +41,11 @@ InputError input_error(const std::string& file, std::vector<Mistake> mistakes) {
     text += "\n  " + place + (place.empty() ? "" : ": ") + in_one_line(mistakes[i].problem) + "; " +
             in_one_line(mistakes[i].remedy);
   }
-  return InputError(text + (mistakes.size() > kMostListed ? "\n  and so on." : "."));
+  if (mistakes.size() > kMostListed)
+    text += "\n  and so on.";
+  else if (text.back() != '?')
+    text += '.';
+  return InputError(text);
 }
 
 }  // namespace insonate

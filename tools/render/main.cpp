@@ -211,7 +211,8 @@ int main(int argc, char** argv) {
           "fields of sim/model/settings.h that differ from it. For model W: fields of "
           "sim/registration/wein_settings.h")
       ->type_name("FILE")
-      ->default_str("those of the trainer, for model W its own");
+      ->default_str(
+          "those of the trainer without its compounding, persistence and edge enhancement, for model W its own");
   CLI::Option* quality =
       arguments
           .add_option("--quality", quality_name,

@@ -165,7 +165,7 @@ std::optional<bool> draw_leave(const Theme& theme, const Rect& screen, bool ends
   sheet.take_top(theme.px(10));
   if (steps)
     draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted,
-              "The steps are not finished: nothing of them is scored or kept.");
+              "The steps are not finished: nothing of them will be scored or kept.");
   if (!sweep.empty()) draw_text(sheet.take_top(theme.px(24)), theme.text, colour::kMuted, sweep);
   Rect buttons = sheet.take_bottom(theme.px(38));
   std::optional<bool> answer;

@@ -111,7 +111,7 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
 
 std::string state_text(const Session& session, const PictureTools& tools) {
   if (session.stopped_at_edge()) return kStopWords;
-  if (!session.machine().frozen) return "";
+  if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
   return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 

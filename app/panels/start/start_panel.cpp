@@ -134,6 +134,7 @@ void StartPanel::draw_learner(const Theme& theme, Rect panel, StartPage& page, c
   ImGui::PushID("learner");
   typed_learner_ = learner_.draw(theme, field, typed_learner_, "An id that is not a name, such as L-07");
   ImGui::PopID();
+  page.learner_is_typed = learner_.is_open() && !typed_learner_.empty();
   if (refused && !learner_.is_open()) outline(field, colour::kAmber, theme.px(4));
   rest.take_top(theme.px(8));
   std::vector<Choice> choices{

@@ -120,6 +120,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a picture whose beam lies where the CT ends is told from others") {
+  const auto loaded_case = tiny_loaded_case();  // from -80 to 80 mm
+  Session session(loaded_case,
+                  [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); });
+  session.practise();
+  double now_s = 0;
+  const auto at = [&](double z_mm) {
+    session.move_probe([&](const ProbeHand&, const Pose&) { return Pose{glm::dmat3(1.0), {0, 0, z_mm}}; });
+    for (int i = 0; i < 3; ++i) session.advance(now_s += 0.1);
+    return session.looks_past_ct();
+  };
+  CHECK_FALSE(at(0));
+  CHECK_FALSE(at(74));
+  CHECK(at(78));
+  CHECK(at(-78));
+  CHECK(at(120));
+}
+
 TEST_CASE("free practice has no exam, and an exam can be started from it") {
   Session session(tiny_loaded_case(), replay_of(searching_scan()));
   session.advance(0);

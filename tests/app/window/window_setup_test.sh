@@ -107,6 +107,8 @@ wait "$trainer" 2>/dev/null || true
 start_trainer --ct "$work/water.mha"
 await "the session starts" is activity practice
 xdotool key F2
+await "F2 says that it leaves the scan" contains toast "F2 once more leaves the scan"
+xdotool key F2
 await "F2 leads to the trackers" is start_task setup
 contains start_why_not "no sensor" || fail "the page does not say what is wrong"
 
