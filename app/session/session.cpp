@@ -187,16 +187,11 @@ void Session::give_back_probe() {
 
 bool Session::looks_past_ct() const {
   if (!shown_pose_) return false;
-  const Grid& grid = loaded_case_->subject.ct.grid;
-  int axis = 0;  // from feet to head
-  for (int other : {1, 2})
-    if (std::abs(grid.direction[other].z) > std::abs(grid.direction[axis].z)) axis = other;
   constexpr int kPoints = 8;
   int past = 0;
   for (int i = 0; i < kPoints; ++i) {
     const glm::dvec3 point = shown_pose_->point({0, machine_.depth_mm * (i + 0.5) / kPoints, 0});
-    const double index = grid.index_from_patient(point)[axis], dark = 0.5 * kEnd_mm / grid.spacing[axis];
-    past += index < dark || index > grid.size[axis] - 1 - dark;
+    past += to_end_mm(loaded_case_->subject.ct.grid, point) < kEnd_mm / 2;
   }
   return past > kPoints / 2;
 }

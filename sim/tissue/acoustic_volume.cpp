@@ -35,9 +35,7 @@ double texture_hu(double hu_above_mean) {
 /// The slices at the head's and the feet's end in which sound is lost.
 class Ends {
 public:
-  explicit Ends(const Grid& grid) {
-    for (int axis = 1; axis < 3; ++axis)
-      if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[axis_].z)) axis_ = axis;
+  explicit Ends(const Grid& grid) : axis_(feet_head_axis(grid)) {
     slices_ = std::max(2, int(std::lround(kEnd_mm / grid.spacing[axis_])));
     last_ = grid.size[axis_] - 1;
     if (grid.size[axis_] < 4 * slices_) slices_ = 0;
@@ -188,6 +186,19 @@ void add_structure(AcousticVolume& volume, const std::vector<std::int16_t>& stru
 }
 
 }  // namespace
+
+int feet_head_axis(const Grid& grid) {
+  int along = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[along].z)) along = axis;
+  return along;
+}
+
+double to_end_mm(const Grid& grid, const glm::dvec3& point) {
+  const int axis = feet_head_axis(grid);
+  const double index = grid.index_from_patient(point)[axis];
+  return grid.spacing[axis] * std::min(index, grid.size[axis] - 1 - index);
+}
 
 AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                                     const std::vector<std::string>& tissue_of, const TissueTable& table,

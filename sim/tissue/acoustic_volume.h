@@ -38,6 +38,11 @@ inline constexpr double kFluidDb = -25;
 inline constexpr double kEnd_mm = 8;
 inline constexpr double kEndDb = -160;  // of the outermost slice
 
+/// Returns the grid's axis that runs most nearly along the patient's, from feet to head.
+int feet_head_axis(const Grid& grid);
+/// Returns the distance of a point of the patient from the nearer of these ends along that axis, mm; below 0 beyond.
+double to_end_mm(const Grid& grid, const glm::dvec3& point);
+
 // A voxel counts as partial volume if two opposite neighbours at this distance enclose its density with a margin on
 // both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above what is left
 // of the noise, so that noise in a cyst does not fill it with echoes.

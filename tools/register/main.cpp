@@ -31,6 +31,7 @@ using namespace insonate;
 namespace {
 
 constexpr int kNotConverged = 3;
+constexpr double kMentioned = 0.005, kMuch = 0.5;  // of the images' pixels, where the CT ends
 
 // Refuses a sweep to which no deformation can be fitted.
 void check_deformable(const std::string& file, const TrackedSweep& sweep, double spacing_mm) {
@@ -172,6 +173,9 @@ int main(int argc, char** argv) {
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);
     check_start(subject_path, subject.ct, read.sweep, ct_from_sweep);
+    const double left_out = leave_out_ends(read.sweep, subject.ct, ct_from_sweep, recording);
+    if (left_out > kMentioned)
+      std::printf("Left out: %.0f %% of the images, which lie where the CT ends.\n", 100 * left_out);
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
     const gl::HeadlessContext context;
     SweepRegistration found;
@@ -180,6 +184,8 @@ int main(int argc, char** argv) {
       SweepRegistrar registrar(volume, read.sweep, settings);
       found = registrar.from(ct_from_sweep);
       found.seconds += registrar.seconds_to_prepare();
+      if (left_out > kMuch)
+        found.doubts.emplace_back("at the start most of what the images show lies where the CT ends");
       if (spacing_mm && found.converged()) deformed = fit_free_form(volume, read.sweep, found.ct_from_sweep, free_form);
     });
 

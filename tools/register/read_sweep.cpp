@@ -17,6 +17,7 @@
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
 #include "sim/files/toml_table.h"
+#include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/dicom_series.h"
 #include "tools/cli/pose_file.h"
 #include "tools/register/read_dicom_sweep.h"
@@ -60,6 +61,48 @@ Image<float> clipped(const Image<std::uint8_t>& picture, const SweepInput& input
     for (int column = x; column < x + width; ++column)
       if (!input.mask || input.mask->at(column, row) > 0) result.at(column, row) = float(picture.at(column, row));
   return result;
+}
+
+/// Calls `visit(pixel, place in the sweep's frame)` for each known pixel of one of the sweep's images.
+template <typename AnyImage, typename Visit>
+void for_each_known(const TrackedSweep& sweep, AnyImage& image, Visit&& visit) {
+  const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
+  for (int y = 0; y < geometry.height; ++y)
+    for (int x = 0; x < geometry.width; ++x)
+      if (!std::isnan(image.grey.at(x, y)))
+        visit(image.grey.at(x, y), image.sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0)));
+}
+
+/// Returns whether a point of the patient lies where the CT cuts the body: near an end at which there is tissue, or
+/// beyond.
+bool is_at_end(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
+  constexpr int kTissueHu = -300;
+  constexpr double kStartError_mm = 10, kMostShare = 1.0 / 12;  // of a short CT's length
+  constexpr double kLeastLength_mm = 80;                        // below that, too little would be left
+  const int axis = feet_head_axis(ct.grid);
+  const double length_mm = ct.grid.spacing[axis] * ct.grid.size[axis];
+  if (length_mm < kLeastLength_mm ||
+      to_end_mm(ct.grid, point) >= std::min(kEnd_mm + kStartError_mm, kMostShare * length_mm))
+    return false;
+  glm::ivec3 end =
+      glm::clamp(glm::ivec3(glm::round(ct.grid.index_from_patient(point))), glm::ivec3(0), ct.grid.size - 1);
+  end[axis] = 2 * end[axis] < ct.grid.size[axis] ? 0 : ct.grid.size[axis] - 1;
+  return ct.at(end) > kTissueHu;
+}
+
+/// Makes other pixels unknown, and drops images of which nothing is left.
+template <typename IsKept>
+void keep_where(TrackedSweep& sweep, IsKept&& is_kept) {
+  std::erase_if(sweep.images, [&](SweepImage& image) {
+    std::size_t kept = 0;
+    for_each_known(sweep, image, [&](float& grey, const glm::dvec3& at) {
+      if (is_kept(grey, at))
+        ++kept;
+      else
+        grey = kUnknown;
+    });
+    return kept == 0;
+  });
 }
 
 }  // namespace
@@ -208,21 +251,27 @@ ReadSweep read_sweep(const SweepInput& given) {
 }
 
 void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, const std::string& file) {
-  std::erase_if(sweep.images, [&](SweepImage& image) {
-    const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, image.grey.width, image.grey.height);
-    std::size_t kept = 0;
-    for (int y = 0; y < geometry.height; ++y)
-      for (int x = 0; x < geometry.width; ++x) {
-        float& pixel = image.grey.at(x, y);
-        const glm::dvec3 at = image.sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0));
-        if (sample_nearest(labels, labels.grid.index_from_patient(at)) == 0) pixel = kUnknown;
-        kept += !std::isnan(pixel);
-      }
-    return kept == 0;
+  keep_where(sweep, [&](float, const glm::dvec3& at) {
+    return sample_nearest(labels, labels.grid.index_from_patient(at)) != 0;
   });
   if (sweep.images.size() < 2)
     throw InputError(file, "", "fewer than two images show anything inside its labels",
                      "draw it in the recording's frame, such as over sweep.nrrd of an earlier result");
+}
+
+double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep,
+                      const std::string& file) {
+  std::size_t known = 0, left_out = 0;
+  keep_where(sweep, [&](float, const glm::dvec3& at) {
+    const bool is_left_out = is_at_end(ct, glm::dvec3(ct_from_sweep * glm::dvec4(at, 1)));
+    ++known;
+    left_out += is_left_out;
+    return !is_left_out;
+  });
+  if (sweep.images.size() < 2)
+    throw InputError(file, "", "at the start fewer than two images show what lies in the CT",
+                     "give a nearer --start, or a CT of the region that was scanned");
+  return known > 0 ? double(left_out) / double(known) : 0;
 }
 
 Probe read_probe(const std::string& file) {

@@ -1,6 +1,7 @@
 // What insonate-register reads besides the CT: recordings with images, probes, and whether the start fits the CT.
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -306,6 +307,37 @@ TEST_CASE("a label map keeps the pixels inside its labels alone") {
   sweep = whole;
   CHECK_THROWS_WITH(keep_labelled(sweep, labels, "labels.nrrd"),
                     Contains("labels.nrrd: fewer than two images show anything inside its labels; draw it in"));
+}
+
+TEST_CASE("what lies where the CT cuts the body is not compared") {
+  Volume<std::int16_t> ct{{{60, 60, 60}, glm::dvec3(2), glm::dvec3(-59), glm::dmat3(1)}, {}};
+  ct.voxels.assign(ct.grid.count(), 40);  // tissue from z = -59 to 59, of which a twelfth at each end is left out
+  TrackedSweep whole{*find_probe("linear"), 40, {}};
+  for (const double z : {-70.0, -52.0, -45.0, 0.0, 45.0, 52.0})
+    whole.images.push_back({{glm::dmat3(1), {0, 0, z}}, Image<float>(20, 16, 100.0f)});
+  TrackedSweep sweep = whole;
+  CHECK(leave_out_ends(sweep, ct, glm::dmat4(1.0), "sweep") == Approx(0.5));
+  REQUIRE(sweep.images.size() == 3);
+  CHECK(sweep.images.front().sweep_from_probe.translation.z == -45);
+  CHECK(sweep.images.back().sweep_from_probe.translation.z == 45);
+
+  const glm::dmat4 by_20 = glm::translate(glm::dmat4(1.0), {0, 0, 20});
+  sweep = whole;
+  CHECK(leave_out_ends(sweep, ct, by_20, "sweep") == Approx(0.5));
+  CHECK(sweep.images.front().sweep_from_probe.translation.z == -52);
+
+  INFO("fewer than two images are left");
+  sweep = whole;
+  sweep.images.resize(4);
+  const glm::dmat4 by_70 = glm::translate(glm::dmat4(1.0), {0, 0, -70});
+  CHECK_THROWS_WITH(leave_out_ends(sweep, ct, by_70, "sweep"),
+                    Contains("fewer than two images show what lies in the CT"));
+
+  INFO("an end in air cuts nothing");
+  ct.voxels.assign(ct.grid.count(), -1000);
+  sweep = whole;
+  CHECK(leave_out_ends(sweep, ct, glm::dmat4(1.0), "sweep") == 0);
+  CHECK(sweep.images.size() == 6);
 }
 
 TEST_CASE("without a probe, it is found from the fan in the images") {
