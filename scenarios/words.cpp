@@ -20,6 +20,9 @@ std::string short_number(double value) {
 
 std::string in_words(Metric metric, double value) {
   const MetricInfo& m = info(metric);
+  // Relative to the reference view, which need not be the one that shows most.
+  if ((metric == Metric::target_insonated_percent || metric == Metric::target_in_view_percent) && value >= 100.5)
+    return "over 100 %";
   const bool degrees = m.unit == "\u00b0";
   return fixed(value, m.decimals) + (m.unit.empty() || degrees ? "" : " ") + std::string(m.unit);
 }

@@ -126,6 +126,10 @@ std::optional<Guiding> Guide::now(const Session& session) const {
   guiding.plane_distance_mm = std::abs(glm::dot(pose->point(middle) - view->patient_from_probe.point(middle), normal));
   const double cosine = glm::dot(pose->rotation[2], normal);
   guiding.plane_angle_deg = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  if (live && live->view) {  // as the step measures them
+    guiding.plane_distance_mm = std::abs(live->view->plane_distance_mm);
+    guiding.plane_angle_deg = live->view->plane_angle_deg;
+  }
   return guiding;
 }
 

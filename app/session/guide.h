@@ -13,7 +13,8 @@ struct Guiding {
   const ReferenceView* view = nullptr;  ///< the view to find; belongs to the session's case or to the guide
   std::vector<std::string> advice;      ///< next movements, in order; empty if the reference is reached
   std::vector<std::string> keys;        ///< of each advice, such as "D"; empty unless the learner's hand has the probe
-  double plane_distance_mm = 0;         ///< between the centres of the two pictures, along the reference's normal
+  /// Between the centres of the two pictures, along the reference's normal; in a step, as the step measures it.
+  double plane_distance_mm = 0;
   double plane_angle_deg = 0;
   bool there = false;  ///< the step's tolerances are met, or without a step the view is reached
 };

@@ -89,8 +89,13 @@ std::string projected(const Projection& projection, double left, const ProbePath
       svg += formatted("%c%.1f %.1f", &p == &stretch.points.front() ? 'M' : 'L', x(p), y(p));
     svg += "'/>";
   }
-  svg += formatted("<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f'>start</text>",
-                   x(path.start), y(path.start), x(path.start) + 7, y(path.start) - 5);
+  // The word stands on the side where there is room.
+  const bool is_right = x(path.start) > left + kSize / 2;
+  svg += formatted(
+      "<circle class='start' cx='%.1f' cy='%.1f' r='4'/><text class='tick' x='%.1f' y='%.1f' "
+      "text-anchor='%s'>start</text>",
+      x(path.start), y(path.start), x(path.start) + (is_right ? -7 : 7), std::max(y(path.start) - 5, kTop + 14),
+      is_right ? "end" : "start");
   for (const ProbePath::Spot& spot : path.spots)
     svg += formatted("<circle class='spot %s' cx='%.1f' cy='%.1f' r='5'/>", spot.held ? "good" : "bad", x(spot.at),
                      y(spot.at));

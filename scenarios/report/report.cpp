@@ -64,7 +64,7 @@ std::string row(const CriterionScore& m) {
 std::string table(const std::vector<CriterionScore>& criteria) {
   if (criteria.empty()) return "<p class='quiet'>This part does not count.</p>";
   std::string html =
-      "<table class='marks'><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>Full \u2026 "
+      "<table class='marks'><thead><tr><th>Criterion</th><th class='number'>Value</th><th class='number'>All \u2026 "
       "no points</th>"
       "<th class='number'>Points</th></tr></thead><tbody>\n";
   for (const CriterionScore& m : criteria) html += row(m);

@@ -119,7 +119,7 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   const std::size_t steps = scenario.steps.size();
   const bool whole_minutes = std::fmod(scenario.time_limit_s, 60) == 0;
   char facts[160];
-  std::snprintf(facts, sizeof facts, "%zu %s in at most %s minutes, passed from %.0f %%.", steps,
+  std::snprintf(facts, sizeof facts, "%zu %s in at most %s minutes; %.0f %% to pass.", steps,
                 steps == 1 ? "step" : "steps",
                 whole_minutes ? std::to_string(int(scenario.time_limit_s / 60)).c_str()
                               : clock_text(scenario.time_limit_s).c_str(),

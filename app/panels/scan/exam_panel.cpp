@@ -61,9 +61,6 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
     char rate[32];
     std::snprintf(rate, sizeof rate, ", %.0f Hz", state.rate_hz);
     if (state.rate_hz > 0 && state.last_status == PoseStatus::ok) condition += rate;
-    const bool calm = !session.lost_for_s() && state.rejected == Rejection::none;
-    if (const auto& answer = session.pose_estimate(); answer && calm)
-      condition += ", " + std::string(to_string(answer->how));
   }
   Rect upper{where.x, where.y + theme.px(11), where.w, theme.px(21)};
   Rect lower{where.x, upper.y + upper.h, where.w, theme.px(20)};
@@ -71,7 +68,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
   upper.take_left(theme.px(18));
   lower.take_left(theme.px(18));
   draw_text(upper, theme.strong, light == colour::kAmber ? colour::kAmber : colour::kText, condition);
-  const std::string& source = state.problem.empty() ? state.name : state.problem;
+  const std::string& source = state.name.empty() ? state.problem : state.name;  // the picture shows a problem in full
   if (state.distortion.value_or(0) > 0 && session.holder() == Holder::tracker) {
     const std::string grade = "distortion " + std::to_string(*state.distortion);
     const bool bad = state.rejected == Rejection::distortion;

@@ -69,7 +69,7 @@ void draw_fact(const Theme& theme, Rect row, const std::pair<std::string, std::s
 void draw_column_titles(const Theme& theme, const Rect& row) {
   const Columns columns = columns_of(theme, row);
   draw_text(columns.value, theme.small_text, colour::kFaint, "Value", Align::right);
-  draw_text(columns.limits, theme.small_text, colour::kFaint, "Full \u2013 no points", Align::right);
+  draw_text(columns.limits, theme.small_text, colour::kFaint, "All points \u2013 none", Align::right);
   draw_text(columns.points, theme.small_text, colour::kFaint, "Points", Align::right);
 }
 

@@ -186,7 +186,8 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   if (!typed) field.close();
   Rect rest = panel.inset(theme.px(16), theme.px(kMargin));
   if (!StepControls::active(session))
-    return draw_text(rest, theme.text, colour::kMuted, "The steps are over. Measuring goes on, and counts no more.");
+    return draw_text(rest, theme.text, colour::kMuted,
+                     "The steps are over. You can go on measuring; it no longer counts.");
   const LiveExam& live = session.runner()->live();
   const StepInput input = session.runner()->scenario().steps[live.step].task->input();
 
