@@ -211,7 +211,7 @@ FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& 
     const Frame& frame = frames[(2 * i + 1) * frames.size() / (2 * kept)];
     if (glm::distance(pixel_size(frame.probe_from_pixel), mm) > kSamePixel * glm::length(mm))
       throw InputError(input.file, "frame " + std::to_string(frame.number), "its pixels have another size",
-                       "register the parts of one depth alone");
+                       "record each depth on its own, and register one of them");
     seen.add(reader.grey(frame.number));
   }
   return find_probe_in(seen, frames.front().probe_from_pixel, input);

@@ -388,7 +388,8 @@ TEST_CASE("without a probe, it is found from the fan in the images") {
     recorder.finish();
   };
   record(90, 2 * kPixelMm);
-  recorded.refused("scan.igs.mha: frame 2: its pixels have another size; register the parts of one depth alone.");
+  recorded.refused(
+      "scan.igs.mha: frame 2: its pixels have another size; record each depth on its own, and register one of them.");
   record(0, kPixelMm);
   recorded.refused(
       "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth");
