@@ -242,7 +242,7 @@ void LearnersPanel::draw_scores(const Theme& theme, const Rect& panel, LearnersP
   const bool group = page.choice().learner.empty();
   if (group && page.trend().mixes_modes) {
     draw_text(rest.take_bottom(theme.px(20)), theme.small_text, colour::kMuted,
-              "Median and quartiles: choose one of exams, practice and recorded scans.");
+              "Median and quartiles are of one kind of attempt: choose it above.");
     rest.take_bottom(theme.px(2));
   }
   (*places_)["score_chart"] = rest;

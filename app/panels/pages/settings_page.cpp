@@ -97,7 +97,7 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
   Preferences wanted = preferences;
   std::error_code error;
   const std::string out_text = std::filesystem::absolute(options.out, error).string();
-  const std::string cases_text = "those in the folder of the start", results_text = own_results_text();
+  const std::string cases_text = "those in the working folder", results_text = own_results_text();
   float paths = 0;
   for (const auto& [path, otherwise] :
        {std::pair{&wanted.out, &out_text}, {&wanted.cases, &cases_text}, {&wanted.results, &results_text}})
