@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -60,7 +61,9 @@ std::string xapi_statements(const Attempt& attempt, const ExamResult& result, co
                         {"platform", "Insonate " + result.provenance.program_version},
                         {"language", "en"},
                         {"extensions", extensions}};
-  const std::int64_t start_ms = attempt.finished_ms - std::llround(1000 * result.motion.time_s);
+  constexpr double kLongest_s = 1e9;  // of what a file of another origin may state, so that the start is a time
+  const std::int64_t start_ms =
+      attempt.finished_ms - std::llround(1000 * std::clamp(result.motion.time_s, 0.0, kLongest_s));
 
   Json statements = Json::array();
   const auto state = [&](const char* verb, std::int64_t at_ms, const Json& outcome) {
