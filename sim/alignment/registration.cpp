@@ -218,7 +218,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     if (!wanders) break;
     if (run.confirmed && (rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value)) break;
   }
-  // A search that is no wider has looked there already.
+  // A narrower search has looked there already.
   const bool is_wide = std::max(settings.search_mm, settings.search_deg) > kAround_mm;
   const Optimum best = is_wide ? run.look_around(rough.front(), fine) : rough.front();
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();

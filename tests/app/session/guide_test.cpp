@@ -35,6 +35,16 @@ Session by_hand(const std::shared_ptr<const LoadedCase>& loaded_case) {
                  [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); });
 }
 
+/// Returns the tiny exam with another tolerance of its first step in place of the plane's distance.
+std::shared_ptr<const LoadedCase> with_tolerance(const std::string& tolerance) {
+  const std::string usual = "plane_distance_mm = 8";
+  std::string scenario = kTinyScenario;
+  scenario.replace(scenario.find(usual), usual.size(), tolerance);
+  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
+  loaded_case->scenario = parse_scenario(scenario, "exam.toml");
+  return loaded_case;
+}
+
 }  // namespace
 
 TEST_CASE("in practice the guide leads to one view after the other, those of the exam first") {
@@ -266,11 +276,7 @@ TEST_CASE("the result of an attempt holds how long the guide was shown, also if 
 }
 
 TEST_CASE("in a step the guide leads on until the step's own tolerances are met") {
-  std::string strict = kTinyScenario;
-  strict.replace(strict.find("plane_distance_mm = 8"), 21, "plane_distance_mm = 2");
-  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
-  loaded_case->scenario = parse_scenario(strict, "exam.toml");
-  Session session = by_hand(loaded_case);
+  Session session = by_hand(with_tolerance("plane_distance_mm = 2"));
   Guide guide;
   guide.turn(true);
   double now_s = 0;
@@ -289,11 +295,7 @@ TEST_CASE("in a step the guide leads on until the step's own tolerances are met"
 }
 
 TEST_CASE("where the probe is in place and the step asks for more, the guide does not say to hold still") {
-  std::string more = kTinyScenario;
-  more.replace(more.find("plane_distance_mm = 8"), 21, "target_in_view_percent = 150");
-  auto loaded_case = std::make_shared<LoadedCase>(*tiny_loaded_case());
-  loaded_case->scenario = parse_scenario(more, "exam.toml");
-  Session session = by_hand(loaded_case);
+  Session session = by_hand(with_tolerance("target_in_view_percent = 150"));
   Guide guide;
   guide.turn(true);
   session.move_probe([&](const ProbeHand&, const Pose&) { return at_z(0); });

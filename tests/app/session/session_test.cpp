@@ -120,7 +120,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a picture whose beam lies where the CT ends is told from others") {
+TEST_CASE("the session says when the picture's beam lies where the CT ends") {
   const auto loaded_case = tiny_loaded_case();  // from -80 to 80 mm
   Session session(loaded_case,
                   [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); });
