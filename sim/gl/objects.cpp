@@ -42,6 +42,12 @@ bool out_of_memory() {
   return glGetError() == GL_OUT_OF_MEMORY;
 }
 
+// Lets what shaders have written to a buffer be copied to a texture. OpenGL asks for GL_PIXEL_BUFFER_BARRIER_BIT alone.
+// With only that, NVIDIA's driver 580 on an H100 copied what the buffer held before.
+void wait_until_written() {
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
 }  // namespace
 
 TextureRefused::TextureRefused(int width, int height, int depth, int limit)
@@ -130,7 +136,7 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
 }
 
 void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
-  glMemoryBarrier(GL_PIXEL_BUFFER_BARRIER_BIT);
+  wait_until_written();
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
   write(layout, type, static_cast<const void*>(nullptr));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -139,7 +145,7 @@ void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
 void Texture::write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   forget_errors();
-  glMemoryBarrier(GL_PIXEL_BUFFER_BARRIER_BIT);
+  wait_until_written();
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
   glTextureSubImage3D(object_.name(), 0, 0, 0, first, width_, height_, count, layout, type, nullptr);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

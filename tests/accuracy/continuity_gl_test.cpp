@@ -14,6 +14,7 @@
 #include "sim/imaging/simulator.h"
 #include "sim/registration/wein_simulator.h"
 #include "tests/accuracy/stressed.h"
+#include "tests/imaging/parity.h"
 #include "tests/imaging/real_ct.h"
 #include "tests/imaging/test_body.h"
 #include "tests/model/amplitudes.h"
@@ -165,6 +166,7 @@ TEST_CASE("nor model W's picture by more than half of it") {
   WeinSettings settings;
   settings.image_width = 320;
   settings.image_height = 240;
+  settings.exact_filter = own_filter_is_coarse();
   gl::WeinSimulator simulator(scene.volume, scene.probe, scene.depth_mm, settings);
   check_over_skin(
       "model W", [&](const Scene& moved) { return simulator.read_stages(moved.pose).grey; }, scene, {127, 25}, 12);

@@ -170,7 +170,7 @@ TEST_CASE("a filtered picture after a change is the picture that a new simulator
 TEST_CASE("a picture in motion holds the share of the frame before, and at rest nothing of it") {
   const test::TestContext context;
   const AcousticVolume body = test::test_body();
-  Settings settings = small_filtered();
+  Settings settings = test::exact_as_needed(small_filtered());
   settings.skipping = false;
   settings.persistence = 0.6;
   settings.edge_enhancement = GENERATE(0.0, 1.0);
