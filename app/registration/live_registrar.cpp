@@ -47,13 +47,13 @@ std::string_view to_string(LiveRegistrar::Work work) {
 
 LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
                              const RegistrationSettings& settings, bool gives_way, bool searches,
-                             std::function<void(const TrackedSweep&, const glm::dmat4&)> check)
+                             std::function<void(TrackedSweep&, const glm::dmat4&)> prepare)
     : volume_(volume),
       start_(start),
       settings_(settings),
       gives_way_(gives_way),
       searches_(searches),
-      check_(std::move(check)),
+      prepare_(std::move(prepare)),
       window_(probe, depth_mm) {
   settings_.batch = kPlaces;
   state_.ct_from_sweep = start;
@@ -152,13 +152,14 @@ bool LiveRegistrar::begin_round(Task& task) {
     lock.unlock();
     std::string problem;
     try {
-      check_(task.sweep, task.from);
+      prepare_(task.sweep, task.from);
     } catch (const InputError& error) {
       problem = error.what();
     }
     lock.lock();
     state_.problem = problem;
-    if (problem.empty()) {
+    state_.in_use = task.sweep.images.size();
+    if (problem.empty() && state_.in_use >= kLeastImages) {
       state_.work = task.wide ? Work::searching : Work::refining;
       return true;
     }

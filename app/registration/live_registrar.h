@@ -36,7 +36,7 @@ struct LiveRound {
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
 ///
-///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, true, check);
+///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, true, false, prepare);
 ///     registrar.add(image);                      // as they come
 ///     show(registrar.state().ct_from_sweep);     // each frame
 class LiveRegistrar {
@@ -66,13 +66,13 @@ public:
 
   /// @param volume  must outlive the registrar
   /// @param start   ct_from_sweep
-  /// @param check   called on the thread before each round with its images and the estimate; an InputError that it
-  ///                throws is the problem, and the round waits for other images
+  /// @param prepare  called on the thread before each round with its images and the estimate; it may leave out pixels
+  ///                and images, and an InputError that it throws is the problem: the round waits for other images
   /// @param gives_way  false: there is no picture, and the thread has the caller's priority
   /// @param searches   until it has found the place, by itself; search_widely() asks for one search
   LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
                 const RegistrationSettings& settings, bool gives_way, bool searches,
-                std::function<void(const TrackedSweep&, const glm::dmat4&)> check);
+                std::function<void(TrackedSweep&, const glm::dmat4&)> prepare);
   /// Ends the thread within one call of the similarity.
   ~LiveRegistrar();
   LiveRegistrar(const LiveRegistrar&) = delete;
@@ -111,7 +111,7 @@ private:
   const glm::dmat4 start_;
   RegistrationSettings settings_;
   const bool gives_way_, searches_;
-  const std::function<void(const TrackedSweep&, const glm::dmat4&)> check_;
+  const std::function<void(TrackedSweep&, const glm::dmat4&)> prepare_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -66,12 +66,9 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
     if (!registrar_) {
       Probe probe = *input_.probe;
       probe.lines = input_.width;
-      registrar_ = std::make_unique<LiveRegistrar>(volume_, probe, depth_mm(), request_.start, request_.settings,
-                                                   request_.gives_way, request_.searches,
-                                                   [this](const TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) {
-                                                     check_shows_fan(input_.file, sweep);
-                                                     check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
-                                                   });
+      registrar_ = std::make_unique<LiveRegistrar>(
+          volume_, probe, depth_mm(), request_.start, request_.settings, request_.gives_way, request_.searches,
+          [this](TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) { keep_what_compares(sweep, ct_from_sweep); });
       registrar_->refine(request_.refines);
       if (request_.searches) registrar_->search_widely();
     }
@@ -81,6 +78,16 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
   newest_ = Shown{std::move(image), Pose(), placement.pixel_from_plane};
   newest_->sweep_from_fan = newest_->image.sweep_from_probe * placement.probe_from_fan;
   ++shown_count_;
+}
+
+// Called on the registrar's thread.
+void LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const {
+  constexpr double kMostLeftOut = 0.5;
+  check_shows_fan(input_.file, sweep);
+  check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
+  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep, input_.file) > kMostLeftOut)
+    throw InputError(input_.file, "", "most of what the images show lies where the CT ends",
+                     "move the probe away from the CT's ends");
 }
 
 LiveRegistrar::State LiveSession::state() const {

@@ -82,6 +82,7 @@ public:
 private:
   void look_for_fan(const igtl::TrackedImage& image);
   void show(igtl::TrackedImage image, double now_s);
+  void keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const;
 
   LiveRequest request_;
   SweepInput input_;  // with the probe, once it is known

@@ -3,7 +3,9 @@
 #include "sweep_player.h"
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -65,7 +67,8 @@ LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
 struct Live {
   LiveSession session;
 
-  explicit Live(const LiveRequest& begun) : session(begun, patient().subject, patient().volume) {}
+  explicit Live(const LiveRequest& begun, const Case& subject = patient().subject)
+      : session(begun, subject, patient().volume) {}
 
   /// Waits until something is so. The limit only ends a test that hangs.
   bool wait_for(const std::function<bool()>& done) {
@@ -230,6 +233,45 @@ TEST_CASE("images that carry their own place are registered, with the probe that
   // A pixel is 0.7 mm large.
   CHECK(live.session.fan()->probe.radius_mm == Approx(60).margin(1.5));
   CHECK(live.session.depth_mm() == Approx(kDepthMm).margin(1));
+}
+
+TEST_CASE("what lies where the CT cuts the body is not compared while the probe moves either") {
+  const test::Scan& scan = patient().scan;
+  const auto tissue_from = [](double feet_mm) {  // of which a twelfth of 96 mm is left out
+    Case subject;
+    subject.ct.grid = {{100, 100, 48}, glm::dvec3(2), glm::dvec3(-99, -60, feet_mm), glm::dmat3(1)};
+    subject.ct.voxels.assign(subject.ct.grid.count(), 40);
+    return subject;
+  };
+  const test::SweepPlayer player(scan);
+  SECTION("the rest is") {
+    const Case subject = tissue_from(-13);
+    Live live(request(player, scan.ct_from_tracker), subject);
+    live.wait_for([&] { return live.session.state().rounds > 0; });
+    const auto last = live.session.state().last;
+    REQUIRE(last);
+    const Probe& probe = last->sweep.probe;
+    std::size_t known = 0;
+    double lowest_mm = 1000;
+    for (const SweepImage& image : last->sweep.images) {
+      const ImageGeometry geometry = image_geometry(probe, kDepthMm, image.grey.width, image.grey.height);
+      for (int y = 0; y < geometry.height; ++y)
+        for (int x = 0; x < geometry.width; ++x)
+          if (!std::isnan(image.grey.at(x, y))) {
+            ++known;
+            const glm::dvec3 at = image.sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0));
+            lowest_mm = std::min(lowest_mm, (scan.ct_from_tracker * glm::dvec4(at, 1)).z);
+          }
+    }
+    CHECK(known > 0);
+    CHECK(lowest_mm == Approx(-13 + 96.0 / 12).margin(1));
+  }
+  SECTION("no round begins with images that show little else") {
+    const Case subject = tissue_from(-2);
+    Live live(request(player, scan.ct_from_tracker), subject);
+    live.wait_for([&] { return live.session.problem().find("lies where the CT ends") != std::string::npos; });
+    CHECK(live.session.state().rounds == 0);
+  }
 }
 
 TEST_CASE("a live registration that cannot begin says why in a sentence, and goes on when it can") {
