@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "devices/live/probe_buttons.h"
+#include "scenarios/metrics/motion_meter.h"
 
 namespace insonate {
 namespace {
 
-constexpr double kSlide_mm_s = 40, kPress_mm_s = 15, kTurn_deg_s = 40;
-constexpr double kFine = 0.2;
+constexpr double kSlide_mm_s = 60, kPress_mm_s = 15, kTurn_deg_s = 60;
+static_assert(kSlide_mm_s > MotionMeter::kMoving_mm_s && kTurn_deg_s > MotionMeter::kMoving_deg_s,
+              "each slide and turn by a key is a movement of the probe, as one by hand would be");
+constexpr double kFine = 8 / kSlide_mm_s;  // 8 mm and 8 degrees a second
 /// A frame that took longer moves the probe no farther: nothing jumps after a pause.
 constexpr double kLongestFrame_s = 0.1;
 

@@ -20,6 +20,23 @@ std::string bundled_log() {
   return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
 }
 
+/// Returns what the learner, who may look at the picture alone, is told when a step gives way to another; nothing if
+/// they ended it themselves or may come back to it.
+std::string how_step_ended(const Runner& runner, std::size_t step) {
+  if (!runner.has_ended(step)) return "";
+  const std::string number = "Step " + std::to_string(step + 1);
+  switch (runner.result().steps[step].outcome) {
+    case StepOutcome::held:
+      return number + " is done: the view was held.";
+    case StepOutcome::done:
+      return number + " is done.";
+    case StepOutcome::timed_out:
+      return number + " is over: its time was up.";
+    default:
+      return "";
+  }
+}
+
 /// What a person calls the patient of a loaded_case.
 std::string patient_of(const CaseSource& source) {
   for (const std::filesystem::path& named : {source.ct, source.case_folder, source.scenario})
@@ -286,8 +303,13 @@ void Trainer::update(Mode& mode, double now_s) {
   }
   if (!options_.record.empty() && !recorded_) start_recording();
   const bool had_result = session.result().has_value();
+  const std::optional<std::size_t> step =
+      session.runner() ? std::optional(session.runner()->live().step) : std::nullopt;
   guide_.report_use(session);
   session.advance(now_s - mode.behind_s);
+  if (step && session.runner() && !session.result() && session.runner()->live().step != *step)
+    if (std::string said = how_step_ended(*session.runner(), *step); !said.empty())
+      notices_.push_back({std::move(said), {}});
   mode.tools.see(session);
   mode.controls.see(session);
   mode.undo.watch(session);

@@ -114,6 +114,7 @@ private:
             return from.runners.ask(from.runner, x);
           },
           &asking);
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] = std::clamp(at[i], search.low[i], search.high[i]);
       double value = 0;
       const nlopt::result result = optimiser.optimize(at, value);
       runner.found.within_tolerance = result != nlopt::MAXEVAL_REACHED;

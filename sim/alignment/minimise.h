@@ -14,7 +14,7 @@ using EvaluateAll = std::function<std::vector<double>(std::span<const Parameters
 
 /// How local searches run.
 struct LocalSearch {
-  Parameters low, high;        ///< bounds; the starts lie between them
+  Parameters low, high;        ///< bounds; a start that lies outside begins at the nearest place within
   double first_step = 1;       ///< in each parameter
   double tolerance = 0.01;     ///< ends when no parameter changes by more
   int most_evaluations = 500;  ///< per start

@@ -62,7 +62,8 @@ TEST_CASE("a local search keeps to its bounds and says when its evaluations were
     }
     return values;
   };
-  CHECK(maximise_from({{0, 0, 0}}, evaluate, within(2)).front().at[2] == Approx(2).margin(1e-3));
+  for (const double start : {0.0, 3.0})  // the second of them outside
+    CHECK(maximise_from({{0, 0, start}}, evaluate, within(2)).front().at[2] == Approx(2).margin(1e-3));
   LocalSearch few = within(2);
   few.most_evaluations = 8;
   const Optimum cut = maximise_from({{0, 0, 0}}, evaluate, few).front();

@@ -175,7 +175,7 @@ std::string tool_prompt(const PictureTools& tools) {
              : tools.in_hand()->numbers[5] > 0 ? "Click the width"
                                                : "Click the axis' other end";
     case Tool::point:
-      return "Click the place";
+      return tools.annotations().point() ? "The place is marked" : "Click the place";
     case Tool::label:
       return tools.unnamed_place() ? "Now choose its name" : "Click a place, then its name";
   }

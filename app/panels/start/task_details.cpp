@@ -152,8 +152,9 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
   if (button(theme, "browse", places["browse"], "Open a recorded scan\u2026"))
     answer = {StartAnswer::Kind::browse, Wanted::recording};
   const bool expert = !page.expert().empty();
-  if (button(theme, "beside", places["beside"], "Beside the skilled scan",
-             expert && page.beside_expert ? ButtonKind::chosen : ButtonKind::normal, expert))
+  const bool is_beside = expert && page.beside_expert;
+  if (button(theme, "beside", places["beside"], is_beside ? "Skilled scan beside: on" : "Skilled scan beside: off",
+             is_beside ? ButtonKind::chosen : ButtonKind::normal, expert))
     page.beside_expert = !page.beside_expert;
   if (!expert)
     draw_tooltip(theme, places["beside"],

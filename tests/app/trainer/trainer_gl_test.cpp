@@ -19,12 +19,15 @@ TEST_CASE("the trainer replays a log, draws it, and leaves a report and the runn
   trainer.open_from_options();
   trainer.finish_loading();
   REQUIRE(trainer.session());
+  std::vector<std::string> said;
   for (int i = 0; i < 150; ++i) {
     trainer.update(i / 30.0);
+    for (const Notice& notice : trainer.take_notices()) said.push_back(notice.text);
     if (!trainer.best_frame_due()) continue;
     trainer.draw(kSizes);
     trainer.keep_best_frame();
   }
+  CHECK(said == std::vector<std::string>{"Step 1 is done: the view was held."});
   trainer.write_results_if_due();
   REQUIRE(trainer.session()->result());
   REQUIRE(trainer.result_files());
