@@ -97,8 +97,8 @@ std::vector<PlacedLine> placed_lines(const DeviceVolume& volume, const Pose& pat
   placed.reserve(std::size_t(settings.slice_planes) * lines.lines.size());
   for (const SlicePlane& plane : slice_planes(settings))
     for (std::size_t i = 0; i < lines.lines.size(); ++i) {
-      const ScanLine& line = lines.lines[i];
-      const auto [offset, weight] = plane.of_line(i);
+      const auto [offset, weight, beside_line] = plane.of_line(i);
+      const ScanLine line = line_beside(lines, i, beside_line);
       const glm::dvec3 d = line.direction, lateral(d.y, -d.x, 0), elevation = glm::cross(d, lateral);
       const double beside = has_elevation_focus(settings) ? 0 : offset * settings.slice_thickness_mm;
       const glm::dvec3 first = line.start + glm::dvec3(0, 0, beside) + (lines.r_min_mm + dr / 2) * d;

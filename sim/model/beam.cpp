@@ -124,12 +124,25 @@ std::vector<SlicePlane> slice_planes(const Settings& settings) {
     for (int i = 0; i < count; ++i) {
       const double offset = between * (i + 0.5) - 2 + moved;
       SlicePlane::Place& place = planes[std::size_t(i)].places[line];
-      place = {sigma * offset, std::exp(-0.5 * offset * offset)};
+      const int from_middle = i - count / 2;
+      const double lateral = settings.waves && from_middle % 2 != 0 ? std::copysign(0.5, from_middle) : 0;
+      place = {sigma * offset, std::exp(-0.5 * offset * offset), lateral};
       sum += place.weight;
     }
     for (SlicePlane& plane : planes) plane.places[line].weight /= sum;
   }
   return planes;
+}
+
+ScanLine line_beside(const ScanLines& lines, std::size_t line, double share) {
+  const ScanLine& here = lines.lines[line];
+  if (share == 0 || lines.lines.size() == 1) return here;
+  const bool has_next = share > 0 ? line + 1 < lines.lines.size() : line > 0;
+  const bool after = has_next == (share > 0);
+  const ScanLine& other = lines.lines[after ? line + 1 : line - 1];
+  const double towards = has_next ? std::abs(share) : -std::abs(share);
+  return {here.start + towards * (other.start - here.start),
+          glm::normalize(here.direction + towards * (other.direction - here.direction))};
 }
 
 std::vector<double> envelope_scale(const ScanLines& lines, const Settings& settings) {

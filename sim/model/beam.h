@@ -65,8 +65,9 @@ double slice_spread(const Settings& settings);
 /// odd lines.
 struct SlicePlane {
   struct Place {
-    double offset = 0;  ///< distance from the imaging plane in elevation, in thicknesses of the slice
-    double weight = 1;  ///< weight of its I, R and scatterer amplitudes; those of a line sum to 1
+    double offset = 0;   ///< distance from the imaging plane in elevation, in thicknesses of the slice
+    double weight = 1;   ///< weight of its I, R and scatterer amplitudes; those of a line sum to 1
+    double lateral = 0;  ///< towards the next line, in distances of lines (line_beside())
   };
   std::array<Place, 2> places;  ///< of even and of odd lines
 
@@ -80,8 +81,13 @@ struct SlicePlane {
 /// With waves and several planes, those of even lines are moved in elevation by a quarter of their distance, and those
 /// of odd lines by as much to the other side. The beam sums over neighbouring lines, and thus over twice as many
 /// planes. Otherwise a rib that is steep in elevation would be a ladder: one echo for each plane. Patterns of more than
-/// two lines would show as stripes in shadows.
+/// two lines would show as stripes in shadows. For the same reason every second plane lies halfway to a neighbouring
+/// line: a diaphragm that is steep in the plane would be a row of dashes, one for each line.
 std::vector<SlicePlane> slice_planes(const Settings& settings);
+
+/// Returns what lies beside a line, at a share of the distance to the next one (-1 to 1; below 0 to the one before).
+/// Beside the outer lines it goes on as within.
+ScanLine line_beside(const ScanLines& lines, std::size_t line, double share);
 
 /// Returns the factor on the speckle's envelope at each sample that gives fully developed speckle a mean of 1.
 ///

@@ -143,14 +143,16 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
     reserve(&ReferenceScan::echo_re, &ReferenceScan::echo_im);
 
   for (int line = 0; line < count; ++line) {
-    const glm::dvec3 start = patient_from_probe.point(lines.lines[std::size_t(line)].start);
-    const glm::dvec3 d = lines.lines[std::size_t(line)].direction;
+    const SlicePlane::Place& of_slice = plane.of_line(std::size_t(line));
+    const ScanLine placed = line_beside(lines, std::size_t(line), of_slice.lateral);
+    const glm::dvec3 start = patient_from_probe.point(placed.start);
+    const glm::dvec3 d = placed.direction;
     const glm::dvec3 along = patient_from_probe.direction(d);
     const glm::dvec3 lateral = patient_from_probe.direction({d.y, -d.x, 0});
     const glm::dvec3 elevation = glm::cross(along, lateral);
 
     const glm::dvec3 out_of_plane = patient_from_probe.direction({0, 0, 1});
-    const double offset = plane.of_line(std::size_t(line)).offset;
+    const double offset = of_slice.offset;
     const auto place = [&](double r) {
       return start + r * along + offset * slice_thickness_at_mm(settings, r) * out_of_plane;
     };

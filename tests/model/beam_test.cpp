@@ -30,6 +30,34 @@ TEST_CASE("the beam's windows are a box, a triangle and Hann's, and let through 
   CHECK(off_by(weights(BeamWindow::hann), expected({1, 3, 4, 3, 1}, 12)) < 1e-15);  // cosines of 60 and 120 degrees
 }
 
+TEST_CASE("half of the slice lies between the lines, and outer lines go on as within") {
+  const ScanLines lines = scan_lines(*find_probe("curvilinear"), 100, 64, 0);
+  Settings settings = trainer_settings(3.5, 100);
+  std::vector<double> laterals;
+  for (const SlicePlane& plane : slice_planes(settings)) laterals.push_back(plane.of_line(0).lateral);
+  CHECK(laterals == std::vector<double>{-0.5, 0, 0.5});
+  settings.waves = false;
+  for (const SlicePlane& plane : slice_planes(settings)) CHECK(plane.of_line(0).lateral == 0);
+
+  const auto close = [](const ScanLine& a, const ScanLine& b) {
+    return glm::distance(a.start, b.start) < 1e-3 && glm::distance(a.direction, b.direction) < 1e-5;
+  };
+  const std::size_t last = lines.lines.size() - 1;
+  CHECK(close(line_beside(lines, 5, 0.5), line_beside(lines, 6, -0.5)));
+  CHECK_FALSE(close(line_beside(lines, 5, 0.5), lines.lines[5]));
+  CHECK(line_beside(lines, 5, 0).start == lines.lines[5].start);
+  CHECK(close(line_beside(lines, 5, 1), lines.lines[6]));
+  // At the ends, what lies one line further is what lies one line nearer, mirrored at the outer line.
+  for (const auto& [outer, share] : {std::pair(last, 1.0), std::pair(std::size_t(0), -1.0)}) {
+    const ScanLine beyond = line_beside(lines, outer, share), before = line_beside(lines, outer, -share);
+    CHECK(glm::distance((beyond.start + before.start) / 2.0, lines.lines[outer].start) < 1e-3);
+    CHECK(glm::length(beyond.direction) == Approx(1));
+  }
+  ScanLines single = lines;
+  single.lines.resize(1);
+  CHECK(line_beside(single, 0, 0.5).start == single.lines[0].start);
+}
+
 TEST_CASE("with waves the planes of even and odd lines share the slice out evenly, and without they are the same") {
   Settings settings = trainer_settings(3.5, 100);
   settings.slice_planes = 3;

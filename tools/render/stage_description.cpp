@@ -168,6 +168,7 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
     for (const SlicePlane::Place& place : planes[i].places) {
       plane["offset"].push_back(place.offset);
       plane["weight"].push_back(place.weight);
+      plane["lateral"].push_back(place.lateral);
     }
     text["slice_planes"].push_back(plane);
   }

@@ -16,13 +16,14 @@ Tissue tissue_along(const ScanLines& lines, const RenderedScene& scene, const Sl
   Tissue tissue{empty, empty, empty, empty, empty, empty};
 
   for (int line = 0; line < n; ++line) {
-    const ScanLine& in_probe = lines.lines[std::size_t(line)];
+    const SlicePlane::Place& of_slice = plane.of_line(std::size_t(line));
+    const ScanLine in_probe = line_beside(lines, std::size_t(line), of_slice.lateral);
     const glm::dvec3 start = scene.patient_from_probe.point(in_probe.start);
     const glm::dvec3 along = scene.patient_from_probe.direction(in_probe.direction);
     const glm::dvec3 lateral = scene.patient_from_probe.direction({in_probe.direction.y, -in_probe.direction.x, 0});
     const glm::dvec3 elevation = glm::cross(along, lateral);
     const glm::dvec3 out_of_plane = scene.patient_from_probe.direction({0, 0, 1});
-    const double offset = plane.of_line(std::size_t(line)).offset;
+    const double offset = of_slice.offset;
     const auto place = [&](double r) {
       return start + r * along + offset * slice_thickness_at_mm(scene.settings, r) * out_of_plane;
     };

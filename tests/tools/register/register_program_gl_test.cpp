@@ -90,9 +90,9 @@ struct Workplace {
     folder.put(poses_name, poses);
   }
   std::string in(const char* name) const { return (folder.path / name).string(); }
-  ProgramOutcome run_as_found(const std::string& arguments) const {
-    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --search-mm 12 --search-deg 8 " +
-                       arguments);
+  ProgramOutcome run_as_found(const std::string& arguments,
+                              const std::string& search = "--search-mm 12 --search-deg 8") const {
+    return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " " + search + " " + arguments);
   }
   ProgramOutcome run(const std::string& arguments, const std::string& search = "--search-mm 12 --search-deg 8") const {
     return run_program(INSONATE_REGISTER_PROGRAM " --ct " + in("ct.nrrd") + " --probe curvilinear --depth 100 " +
@@ -168,7 +168,8 @@ TEST_CASE("a volume of a sweep is registered along its beam") {
   // The sweep as a volume of voxels of 1 mm, in the recording's frame.
   REQUIRE(place.run(place.in("sweep.igs.mha") + " " + place.in("first")).code == 0);
   const ProgramOutcome outcome = place.run_as_found(
-      "--beam 0,1,0 " + (fs::path(place.in("first")) / "sweep.nrrd").string() + " " + place.in("out"));
+      "--beam 0,1,0 " + (fs::path(place.in("first")) / "sweep.nrrd").string() + " " + place.in("out"),
+      "--search-mm 6 --search-deg 4");  // a volume of so few images is nearly as similar at places further off
   INFO(outcome.errors << outcome.output);
   REQUIRE((outcome.code == 0 || outcome.code == 3));
   const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));

@@ -125,6 +125,7 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
     for (std::size_t line = 0; line < planes[i].places.size(); ++line) {
       CHECK(plane.at("offset").at(line) == planes[i].places[line].offset);
       CHECK(plane.at("weight").at(line) == planes[i].places[line].weight);
+      CHECK(plane.at("lateral").at(line) == planes[i].places[line].lateral);
     }
   }
   const glm::dvec3 elevation = scene.pose.direction({0, 0, 1});
@@ -206,9 +207,10 @@ void check_tissue(const StageFolder& stages, const Insonated& scene, const Slice
   Image<double> hounsfield = empty, echogenicity = empty, impedance = empty, absorption = empty;
   for (int line = 0; line < n; ++line)
     for (int k = 0; k < d; ++k) {
-      const ScanLine& at = scene.lines.lines[std::size_t(line)];
+      const SlicePlane::Place& of_slice = plane.of_line(std::size_t(line));
+      const ScanLine at = line_beside(scene.lines, std::size_t(line), of_slice.lateral);
       const double r = scene.lines.r_min_mm + (k + 0.5) * dr;
-      const glm::dvec3 aside(0, 0, plane.of_line(std::size_t(line)).offset * slice_thickness_at_mm(settings, r));
+      const glm::dvec3 aside(0, 0, of_slice.offset * slice_thickness_at_mm(settings, r));
       const glm::dvec3 place = scene.pose.point(at.start + r * at.direction + aside);
       const Medium met = with_gel(scene.field(place), r, coupling_depth_mm(settings));
       const TissueKnot tissue = scene.table.at(met.hu);
