@@ -64,6 +64,15 @@ LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
   return request;
 }
 
+/// Waits until something is so. The limit only ends a test that hangs.
+void wait_until(const LiveRegistrar& registrar, const std::function<bool(const LiveRegistrar::State&)>& done) {
+  for (int i = 0; i < 20000 && !done(registrar.state()); ++i) {
+    REQUIRE(registrar.state().work != LiveRegistrar::Work::failed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  REQUIRE(done(registrar.state()));
+}
+
 struct Live {
   LiveSession session;
 
@@ -176,8 +185,7 @@ TEST_CASE("the first round with all its images looks around a start that is near
       registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
     }
     registrar.refine(true);
-    while (registrar.state().rounds == 0 && registrar.state().work != LiveRegistrar::Work::failed)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
     CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
   }
 }
@@ -198,22 +206,16 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   const auto add = [&](std::size_t at) {
     registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
   };
-  const auto wait = [&](auto&& until) {
-    while (!until(registrar.state())) {
-      REQUIRE(registrar.state().work != LiveRegistrar::Work::failed);
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  };
   registrar.refine(false);
   for (std::size_t n = 0; n < 7; ++n) add(n);
   registrar.refine(true);
-  wait([](const LiveRegistrar::State& state) { return state.rounds > 0; });
+  wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
   if (registrar.state().last->found.converged()) {
     WARN("this device's rounding lets the first search find the place");
     return;
   }
   for (std::size_t n = 0; n < scan.images.size(); n += 5) add(n);
-  wait([](const LiveRegistrar::State& state) { return state.last->found.converged(); });
+  wait_until(registrar, [](const LiveRegistrar::State& state) { return state.last->found.converged(); });
   CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
 }
 
