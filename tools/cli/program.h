@@ -50,6 +50,15 @@ inline void add_self_descriptions(CLI::App& program, const std::function<std::ve
   add_page("--bash-completion", bash_completion);
 }
 
+/// Lets no option take more arguments than it asks for. Otherwise CLI11 gives options that may be repeated whatever
+/// follows, even the program's own files.
+inline void take_no_more_than_asked(CLI::App& arguments) {
+  for (CLI::Option* option : arguments.get_options())
+    if (!option->get_positional()) option->allow_extra_args(false);
+  for (CLI::App* command : arguments.get_subcommands([](const CLI::App*) { return true; }))
+    take_no_more_than_asked(*command);
+}
+
 /// Refuses values that CLI11 accepts: NaN, which passes every range check; infinity where there is no range; and an
 /// empty text, which CLI11 treats as an omitted option.
 inline void refuse_unusable(const CLI::App& arguments) {
@@ -79,6 +88,7 @@ inline void finish_printing() {
 inline int run_program(CLI::App& arguments, int argc, char** argv, const std::function<int()>& work,
                        const std::function<std::vector<AboutLine>()>& more_about = {}) {
   add_self_descriptions(arguments, more_about);
+  take_no_more_than_asked(arguments);
   // A file at its size limit then causes an error message, as a full disk does, instead of ending the program.
   signal(SIGXFSZ, SIG_IGN);
   try {

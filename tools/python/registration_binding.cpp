@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -24,7 +25,8 @@ using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 class RegistrationBinding {
 public:
   RegistrationBinding(const CasePtr& held, const Floats& ultrasound, const py::object& given,
-                      std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings_file) {
+                      std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings_file,
+                      std::optional<int> patch) {
     if (ultrasound.ndim() != 2)
       throw InputError("ultrasound", "", "it is not an array of rows by columns", "give one grey image");
     const Probe probe = probe_of(given);
@@ -33,6 +35,9 @@ public:
     WeinSettings settings = settings_file ? read_wein_settings(*settings_file) : WeinSettings{};
     settings.image_width = int(ultrasound.shape(1));
     settings.image_height = int(ultrasound.shape(0));
+    // The share of the picture that insonate-register's patches have.
+    if (!settings_file) settings.similarity_patch = std::clamp(settings.image_width / 16, kLeastPatch, kMostPatch);
+    if (patch) settings.similarity_patch = *patch;
     if (const auto why = why_not_valid(settings))
       throw InputError(settings_file ? settings_file->string() : "ultrasound", "", *why, "give another size or file");
     Image<float> image(settings.image_width, settings.image_height);
@@ -65,11 +70,12 @@ private:
 void bind_registration(py::module_& module) {
   py::class_<RegistrationBinding>(module, "Registration")
       .def(py::init([](const std::shared_ptr<HeldCase>& held, const Floats& ultrasound, const py::object& probe,
-                       std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings) {
-             return std::make_unique<RegistrationBinding>(held, ultrasound, probe, depth_mm, settings);
+                       std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings,
+                       std::optional<int> patch) {
+             return std::make_unique<RegistrationBinding>(held, ultrasound, probe, depth_mm, settings, patch);
            }),
            py::arg("case").none(false), py::arg("ultrasound"), py::arg("probe"), py::arg("depth_mm") = py::none(),
-           py::arg("settings") = py::none())
+           py::arg("settings") = py::none(), py::arg("patch") = py::none())
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](RegistrationBinding& self, const py::args&) { self.close(); })
       .def("close", &RegistrationBinding::close)

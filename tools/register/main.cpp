@@ -33,6 +33,22 @@ namespace {
 constexpr int kNotConverged = 3;
 constexpr double kMentioned = 0.005, kMuch = 0.5;  // of the images' pixels, where the CT ends
 
+/// Returns the program's arguments as a shell would take them.
+std::string command_line(int argc, char** argv) {
+  std::string line = "insonate-register";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain =
+        argument.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+@%") ==
+            std::string::npos &&
+        !argument.empty();
+    std::string quoted;
+    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += " " + (plain ? argument : "'" + quoted + "'");
+  }
+  return line;
+}
+
 // Refuses a sweep to which no deformation can be fitted.
 void check_deformable(const std::string& file, const TrackedSweep& sweep, double spacing_mm) {
   if (sweep.images.size() < kLeastFreeFormImages)
@@ -189,8 +205,15 @@ int main(int argc, char** argv) {
       if (spacing_mm && found.converged()) deformed = fit_free_form(volume, read.sweep, found.ct_from_sweep, free_form);
     });
 
-    const RegistrationReport report{subject_path, recording, read, settings, found, {}, deformed ? &*deformed : nullptr,
-                                    &free_form};
+    const RegistrationReport report{subject_path,
+                                    recording,
+                                    read,
+                                    settings,
+                                    found,
+                                    {},
+                                    deformed ? &*deformed : nullptr,
+                                    &free_form,
+                                    command_line(argc, argv)};
     write_registration(out, report, subject.ct);
     std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(report).c_str(),
                 measure.c_str(), found.similarity_before, found.similarity_after, found.evaluations.size(),

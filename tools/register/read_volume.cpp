@@ -51,8 +51,14 @@ Box box_of(const Grid& grid, const glm::dvec3& beam) {
   return box;
 }
 
+// Returns the least value that is known. A volume with numbers below 0 marks with them what is not, and black is known.
+std::int16_t least_known(const Volume<std::int16_t>& volume) {
+  return std::ranges::any_of(volume.voxels, [](std::int16_t value) { return value < 0; }) ? 0 : 1;
+}
+
 // Returns the mean of what is known in a pixel; NaN if most of it is not.
-float value_at(const Volume<std::int16_t>& volume, const Pose& sweep_from_slice, const glm::dvec2& plane, double mm) {
+float value_at(const Volume<std::int16_t>& volume, std::int16_t least, const Pose& sweep_from_slice,
+               const glm::dvec2& plane, double mm) {
   double sum = 0;
   int known = 0;
   for (int j = 0; j < kSamples; ++j)
@@ -60,7 +66,7 @@ float value_at(const Volume<std::int16_t>& volume, const Pose& sweep_from_slice,
       const glm::dvec2 part = plane + mm * (glm::dvec2(i, j) + 0.5 - kSamples / 2.0) / double(kSamples);
       const glm::dvec3 index = volume.grid.index_from_patient(sweep_from_slice.point(glm::dvec3(part, 0)));
       const glm::ivec3 nearest(glm::round(index));
-      if (!volume.grid.contains(nearest) || volume.at(nearest) <= 0) continue;
+      if (!volume.grid.contains(nearest) || volume.at(nearest) < least) continue;
       ++known;
       sum += volume.at(nearest);
     }
@@ -92,6 +98,7 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
   sweep.probe.depth_mm = sweep.depth_mm = size.y;
   sweep.probe.lines = input.width;
   const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, input.width, input.height);
+  const std::int16_t least = least_known(volume);
   read.frames = std::size_t(input.slices);
   for (int slice = 0; slice < input.slices; ++slice) {
     const double across = box.low.z + (slice + 0.5) / input.slices * size.z;
@@ -101,7 +108,7 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
     for (int y = 0; y < input.height; ++y)
       for (int x = 0; x < input.width; ++x) {
         float& pixel = image.grey.at(x, y);
-        pixel = value_at(volume, pose, geometry.plane_mm(x, y), geometry.mm_per_pixel);
+        pixel = value_at(volume, least, pose, geometry.plane_mm(x, y), geometry.mm_per_pixel);
         known += !std::isnan(pixel);
       }
     // Slices at the ends of a swept volume may be empty.

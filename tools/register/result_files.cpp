@@ -12,12 +12,14 @@
 #include <utility>
 
 #include "sim/core/text.h"
+#include "sim/files/digest.h"
 #include "sim/files/files.h"
 #include "sim/files/new_folder.h"
 #include "sim/reconstruction/reconstruction.h"
 #include "sim/reconstruction/sweep_extent.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
+#include "tools/cli/about.h"
 #include "tools/register/deformation_files.h"
 
 namespace insonate {
@@ -183,6 +185,12 @@ std::string registration_json(const RegistrationReport& report) {
   json["search_deg"] = report.settings.search_deg;
   json["evaluations"] = found.evaluations.size();
   json["seconds"] = found.seconds;
+  json["motion"] = report.settings.freedom == Freedom::affine ? "affine" : "rigid";
+  json["patch"] = report.settings.wein.similarity_patch;
+  if (!report.command.empty()) json["command"] = report.command;
+  for (const auto& [name, file] : {std::pair("recording_digest", report.recording), std::pair("ct_digest", report.ct)})
+    if (std::filesystem::is_regular_file(file)) json[name] = digest_of(read_file(file));
+  for (const AboutLine& line : about_this_build()) json["made_by"][line.name] = line.text;
   if (report.free_form) json["free_form"] = free_form_json(*report.free_form, *report.free_form_settings);
   return json.dump(2) + "\n";
 }

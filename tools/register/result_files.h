@@ -22,6 +22,7 @@ struct RegistrationReport {
   std::vector<ComparisonPictures> pictures;
   const FreeFormRegistration* free_form = nullptr;  ///< of the sweep, before found.ct_from_sweep; null: not asked for
   const FreeFormSettings* free_form_settings = nullptr;  ///< of free_form
+  std::string command;                                   ///< the arguments that asked for it; empty for a live one
 
   /// Returns the deformation that belongs to the result; null if there is none.
   const FreeFormField* deformation() const {
@@ -38,7 +39,8 @@ std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
 /// Returns the verdict, and what came of the deformation if one was asked for.
 std::string verdict(const RegistrationReport& report);
 
-/// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON.
+/// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON;
+/// and what it takes to repeat the registration: the arguments, this build, and the digests of both files.
 std::string registration_json(const RegistrationReport& report);
 
 /// Returns every evaluation as CSV: number, stage, similarity and the parameters in mm. Those of a deformation have the

@@ -2,6 +2,9 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
 #include "sim/files/png.h"
@@ -30,7 +33,12 @@ SweepInput SweepOptions::input() const {
   if (!image_matrix_file.empty()) input.probe_from_pixel = read_image_matrix(image_matrix_file);
   if (!face_pixel.empty()) input.face_pixel = glm::dvec2(face_pixel[0], face_pixel[1]);
   if (!clip.empty()) input.clip = {clip[0], clip[1], clip[2], clip[3]};
-  if (!mask_file.empty()) input.mask = read_png(mask_file);
+  if (!mask_file.empty()) {
+    input.mask = read_png(mask_file);
+    if (std::ranges::all_of(input.mask->pixels, [](std::uint8_t pixel) { return pixel == 0; }))
+      throw InputError(mask_file, "", "the mask is black, so that nothing of the images is left",
+                       "draw what to use in white");
+  }
   return input;
 }
 

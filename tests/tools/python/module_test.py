@@ -198,21 +198,28 @@ class Pictures(unittest.TestCase):
 class Registrations(unittest.TestCase):
     def test_lc2_is_highest_at_the_pose_of_the_picture(self):
         case = insonate.phantom(voxel_mm=2)
-        view = case.views["gallbladder_long"]  # its outline is sharp in both models
-        with insonate.Simulator(case) as simulator:
-            simulator.set_probe(view.probe, view.depth_mm)
-            simulator.pose = view.pose
-            simulator.set(image_width=128, image_height=96)
-            picture = simulator.image()
-        poses = np.array([view.pose] * 5)
-        for i, moved in enumerate((-8, -4, 0, 4, 8)):
-            poses[i][:3, 3] += moved * view.pose[:3, 0]
-        with insonate.Registration(case, picture, view.probe, view.depth_mm) as registration:
-            similarity = registration.similarity(poses)
-            self.assertEqual(similarity.dtype, np.float32)
-            self.assertEqual(similarity.argmax(), 2)
+        for name in ("gallbladder_long", "hepatorenal"):
+            view = case.views[name]
+            with insonate.Simulator(case) as simulator:
+                simulator.set_probe(view.probe, view.depth_mm)
+                simulator.pose = view.pose
+                simulator.set(image_width=128, image_height=96)
+                picture = simulator.image()
+            for axis in range(3):
+                poses = np.array([view.pose] * 5)
+                for i, moved in enumerate((-12, -6, 0, 6, 12)):
+                    poses[i][:3, 3] += moved * view.pose[:3, axis]
+                with insonate.Registration(case, picture, view.probe, view.depth_mm) as registration:
+                    similarity = registration.similarity(poses)
+                    self.assertEqual(similarity.dtype, np.float32)
+                    self.assertEqual(similarity.argmax(), 2, f"{name}, axis {axis}: {similarity}")
         with self.assertRaisesRegex(RuntimeError, "the registration is closed"):
             registration.similarity(poses)
+        # Attenuation and shadows differ over a whole image, but little within a patch.
+        with insonate.Registration(case, picture, view.probe, view.depth_mm, patch=0) as whole:
+            self.assertLess(whole.similarity(poses[2:3])[0], similarity[2])
+        with self.assertRaisesRegex(insonate.InputError, "similarity_patch"):
+            insonate.Registration(case, picture, view.probe, view.depth_mm, patch=2)
         with insonate.Registration(case, picture[:, ::-1], view.probe, view.depth_mm) as mirrored:
             self.assertLess(mirrored.similarity(poses[2:3])[0], similarity[2])
         with self.assertRaisesRegex(insonate.InputError, "not an array of rows by columns"):

@@ -14,6 +14,8 @@
 #include "devices/record/sequence_recorder.h"
 #include "sim/alignment/synthetic_sweep.h"
 #include "sim/core/text.h"
+#include "sim/files/digest.h"
+#include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/reconstruction/tracked_picture.h"
 #include "sim/volume/ct_reader.h"
@@ -113,6 +115,12 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
   CHECK(json["converged"] == true);
   CHECK(json["frames"] == 12);
   CHECK(json["similarity_after"] > json["similarity_before"]);
+  // What it takes to do it again.
+  CHECK(json["command"].get<std::string>().find("insonate-register --ct " + place.in("ct.nrrd") + " --probe") == 0);
+  CHECK(json["recording_digest"] == digest_of(read_file(place.in("sweep.igs.mha"))));
+  CHECK(json["ct_digest"] == digest_of(read_file(place.in("ct.nrrd"))));
+  CHECK(json["made_by"].contains("Commit"));
+  CHECK(json["patch"] == 8);
   // The shift of the recording, within the size of the CT's voxels.
   const double shift[] = {3, -2, 4};
   for (std::size_t row = 0; row < 3; ++row) {
@@ -137,6 +145,26 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
   // A name that is taken is refused before any work.
   const ProgramOutcome again = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
   CHECK(again.code == 2);
+}
+
+TEST_CASE("an option takes no more than it asks for, wherever it stands") {
+  const Workplace place;
+  const ProgramOutcome outcome =
+      place.run("--clip 0,0,160,120 " + place.in("sweep.igs.mha") + " --slices 6 " + place.in("out"),
+                "--search-mm 0 --search-deg 0");
+  INFO(outcome.errors);
+  CHECK((outcome.code == 0 || outcome.code == 3));
+  CHECK(place.run_as_found("--beam 0,1,0 " + place.in("sweep.igs.mha") + " --slices 6 " + place.in("more"))
+            .errors.find("it is a recording, not a volume; leave out --beam") != std::string::npos);
+}
+
+TEST_CASE("a mask that leaves nothing is refused") {
+  const Workplace place(true);
+  write_png(place.in("black.png"), Image<std::uint8_t>(kWidth, kHeight));
+  const ProgramOutcome outcome =
+      place.run("--mask " + place.in("black.png") + " " + place.in("sweep.igs.mha") + " " + place.in("out"));
+  CHECK(outcome.code == 2);
+  CHECK(outcome.errors.find("black.png: the mask is black") != std::string::npos);
 }
 
 TEST_CASE("a recording is registered with the probe that its images show") {
