@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <tuple>
 
@@ -116,6 +118,12 @@ void make_shard(const Study& study, OpenedPatient& opened, const DatasetTissues&
 void check_patients(const Study& study, const std::vector<StudyPatient>& patients) {
   for (const StudyPatient& patient : patients) {
     const Case subject = open_patient(study, patient, show_progress);
+    if (std::ranges::all_of(subject.labels.voxels, [](std::uint8_t label) { return label == 0; }))
+      std::fprintf(
+          stderr,
+          "insonate-dataset: the patient '%s' has no labels, so that label and visible_label are 0; 'insonate-case "
+          "import' makes a case of a CT with its segmentation.\n",
+          patient.name.c_str());
     const ShotMaker maker(study, patient, subject);
     for (std::uint32_t i = 0; i < patient.shards; ++i) maker.at(study.first_image(patient.first_shard + i));
   }

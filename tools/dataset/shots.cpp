@@ -121,6 +121,13 @@ void ShotMaker::add_log(Way& way) const {
                         "take a log of a probe that was tracked"}});
 }
 
+// Returns whether a probe's face lies deeper in the body than a hand presses, as in the recording of another patient.
+bool ShotMaker::is_within_body(const Pose& patient_from_probe) const {
+  constexpr double kMostPressed_mm = 60;
+  return !distance_out_of_body(case_->ct, patient_from_probe.translation, patient_from_probe.direction({0, -1, 0}),
+                               kMostPressed_mm);
+}
+
 Shot ShotMaker::at(std::uint32_t index) const {
   const Draws draws(study_->seed, index);
   const Way& way = ways_[draws.weighted(weights_, "poses")];
@@ -155,7 +162,8 @@ Shot ShotMaker::at(std::uint32_t index) const {
     shot.patient_from_probe.rotation = start.rotation * turned(0, draws.within(poses.tilt_deg, "tilt", attempt)) *
                                        turned(2, draws.within(poses.rock_deg, "rock", attempt)) *
                                        turned(1, draws.within(poses.turn_deg, "turn", attempt));
-    if (!SkinContact(case_->ct, listed.probe).at(shot.patient_from_probe)) continue;
+    if (!SkinContact(case_->ct, listed.probe).at(shot.patient_from_probe) || is_within_body(shot.patient_from_probe))
+      continue;
 
     shot.probe = listed.probe;
     shot.depth_mm = draws.step_of(listed.depth_mm, "depth_mm");

@@ -22,7 +22,7 @@ struct RegistrationReport {
   std::vector<ComparisonPictures> pictures;
   const FreeFormRegistration* free_form = nullptr;  ///< of the sweep, before found.ct_from_sweep; null: not asked for
   const FreeFormSettings* free_form_settings = nullptr;  ///< of free_form
-  std::string command;                                   ///< the arguments that asked for it; empty for a live one
+  std::string command{};                                 ///< the arguments that asked for it; empty for a live one
 
   /// Returns the deformation that belongs to the result; null if there is none.
   const FreeFormField* deformation() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/files/files.h"
+#include "sim/volume/ct_reader.h"
 #include "tests/tools/dataset/dataset_workplace.h"
 #include "tools/dataset/shard_file.h"
 
@@ -42,6 +43,24 @@ std::vector<std::uint8_t> png_pixels(const fs::path& file) {
 }
 
 }  // namespace
+
+TEST_CASE("a CT without labels is said to have none, before any image is made") {
+  const Workplace work;
+  Volume<std::int16_t> ct{{{60, 60, 40}, glm::dvec3(4), glm::dvec3(-118, -118, -78), glm::dmat3(1)}, {}};
+  for (std::size_t i = 0; i < ct.grid.count(); ++i)  // a box of tissue in air
+    ct.voxels.push_back(i % 60 > 10 && i % 60 < 50 && i / 60 % 60 > 10 && i / 60 % 60 < 50 ? 40 : -1000);
+  write_ct(work.path / "ct.nrrd", ct);
+  const auto plan = [&](const std::string& name, const std::string& subject) {
+    work.file(name + ".toml", "format = 1\nname = \"n\"\nseed = 3\nimages = 2\nshard_images = 2\n[[case]]\n" + subject +
+                                  "[[probe]]\nname = \"linear\"\n[[poses]]\nkind = \"skin\"\n");
+    return work.run("plan " + name + ".toml " + name);
+  };
+  const ProgramOutcome without = plan("bare", "case = \"ct.nrrd\"\nlicence = \"none\"\n");
+  INFO(without.errors);
+  CHECK(without.code == 0);
+  CHECK(without.errors.find("has no labels, so that label and visible_label are 0") != std::string::npos);
+  CHECK(plan("built_in", "phantom = { voxel_mm = 4 }\n").errors.find("labels") == std::string::npos);
+}
 
 TEST_CASE("one process, ranks, single shards and merged folders give the same bytes") {
   const Workplace work;

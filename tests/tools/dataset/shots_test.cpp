@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "devices/sequence/sequence.h"
 #include "sim/core/input_error.h"
 #include "sim/tissue/skin_contact.h"
 #include "sim/truth/picture_truth.h"
@@ -195,6 +196,22 @@ TEST_CASE("poses that a patient does not have are refused, with place and remedy
   // A view of another probe, on purpose.
   const Prepared other(kCase + linear + "[[poses]]\nkind = \"view\"\nprobes = [\"linear\"]\n");
   CHECK(other.maker().at(0).probe.name == "linear");
+}
+
+TEST_CASE("a log of another patient, whose probe lies within this one, is refused") {
+  const std::string curved = "[[probe]]\nname = \"curvilinear\"\n[[poses]]\nkind = ";
+  ProbeSample sample{0, PoseStatus::ok, Pose()};
+  sample.patient_from_probe =
+      Prepared(kCase + curved + "\"view\"\nviews = [\"hepatorenal\"]\n").maker().at(0).patient_from_probe;
+  const test::StudyFolder folder;
+  const auto of_log = [&](double deeper_mm) {
+    ProbeSample moved = sample;
+    moved.patient_from_probe.translation += deeper_mm * moved.patient_from_probe.direction({0, 1, 0});
+    const auto log = folder.file("deep.igs.mha", write_sequence(std::vector{moved}));
+    return why_refused(kCase + curved + "\"log\"\nfile = \"" + log.string() + "\"\n");
+  };
+  CHECK(of_log(0) == "");
+  CHECK(of_log(90).find("none has the probe on the skin of the patient") != std::string::npos);
 }
 
 TEST_CASE("images are turned as clinics show them, and their matrix leads to the patient") {
