@@ -270,6 +270,17 @@ TEST_CASE("a volume of ultrasound is read as slices along its beam, and one that
   const Image<float>& grey = read.sweep.images[10].grey;
   CHECK(grey.at(grey.width / 2, grey.height / 4) < grey.at(grey.width / 2, 3 * grey.height / 4));
 
+  // Where numbers below 0 mark what is not known, black is known. The slices reach from the middle of the first row to
+  // that of the 24th.
+  const auto known_of = [&](const std::string& file) {
+    const ReadSweep of_file = read_volume_sweep(file, along_y, {});
+    const std::vector<float>& pixels = of_file.sweep.images[10].grey.pixels;
+    return double(std::ranges::count_if(pixels, [](float each) { return !std::isnan(each); }));
+  };
+  const double all = known_of(usual);
+  CHECK(known_of(volume("marked.nrrd", 1, -2, 1)) == Approx(21.5 / 23 * all).epsilon(0.01));
+  CHECK(known_of(volume("black.nrrd", 1, 0, 1)) == Approx(22.5 / 23 * all).epsilon(0.01));
+
   const auto refused = [](const std::string& file, const glm::dvec3& beam, const std::string& sentence) {
     CHECK_THROWS_WITH(read_volume_sweep(file, beam, {}), Contains(sentence));
   };
@@ -279,7 +290,7 @@ TEST_CASE("a volume of ultrasound is read as slices along its beam, and one that
   refused(volume("small.nrrd", 0.1, 300, 10), along_y,
           "small.nrrd: it is 2 mm wide across the beam, not 5 to 200; crop it, or see whether --beam is right.");
   refused(usual, along_z, "usual.nrrd: it is 7 mm deep along the beam, not 10 to 400; crop it");
-  refused(volume("dark.nrrd", 1, 0, -1), along_y,
+  refused(volume("dark.nrrd", 1, -1, -1), along_y,
           "dark.nrrd: fewer than two of its slices have a voxel above 0; give a volume of grey levels above 0.");
 }
 
