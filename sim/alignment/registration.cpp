@@ -28,6 +28,8 @@ constexpr double kAmbiguous = 0.9;                         // of the similarity
 constexpr int kClimbs = 3;                                 // most repetitions of the last search
 constexpr std::size_t kAround = 128, kAroundFollowed = 8;  // places around the best one, at the end
 constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5;
+constexpr std::size_t kMostLooks = 5;  // around, each time at other places, while the similarity still rises
+constexpr double kHigher = 1.002;
 constexpr double kMostStretch = 0.15;
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
@@ -81,17 +83,23 @@ struct Run {
 
   // Looks for a higher maximum beside the best place. There may be several within one basin, of which the searches so
   // far have found any.
-  Optimum look_around(const Optimum& best, const EvaluateAll& evaluate) const {
-    std::vector<Parameters> around =
-        scattered_motions(0, kAround, kAround_mm, glm::radians(kAround_deg) * result.motion.radius_mm);
-    for (Parameters& each : around)
-      for (std::size_t i = 0; i < each.size(); ++i) each[i] += best.at[i];
-    const std::vector<double> values = evaluate(around);
-    std::vector<Optimum> scattered;
-    for (std::size_t i = 0; i < around.size(); ++i) scattered.push_back({std::move(around[i]), values[i], 1, true});
-    std::vector<Parameters> followed{best.at};
-    for (const Optimum& each : distinct(std::move(scattered), kAroundFollowed, kApart_mm)) followed.push_back(each.at);
-    return distinct(maximise_from(followed, evaluate, search(1, 0.2, 80)), 1).front();
+  Optimum look_around(Optimum best, const EvaluateAll& evaluate) const {
+    for (std::size_t round = 0; round < kMostLooks; ++round) {
+      std::vector<Parameters> around =
+          scattered_motions(round * kAround, kAround, kAround_mm, glm::radians(kAround_deg) * result.motion.radius_mm);
+      for (Parameters& each : around)
+        for (std::size_t i = 0; i < each.size(); ++i) each[i] += best.at[i];
+      const std::vector<double> values = evaluate(around);
+      std::vector<Optimum> scattered;
+      for (std::size_t i = 0; i < around.size(); ++i) scattered.push_back({std::move(around[i]), values[i], 1, true});
+      std::vector<Parameters> followed{best.at};
+      for (const Optimum& each : distinct(std::move(scattered), kAroundFollowed, kApart_mm))
+        followed.push_back(each.at);
+      const double before = best.value;
+      best = distinct(maximise_from(followed, evaluate, search(1, 0.2, 80)), 1).front();
+      if (round > 0 && best.value < kHigher * before) break;
+    }
+    return best;
   }
 
   // Goes on from an end that is not a maximum: small steps may stop on the unevenness of a slope. Returns the
