@@ -81,6 +81,14 @@ struct Run {
     return kept;
   }
 
+  // Returns the similarity of the best place that is another one than the first; 0 if there is none. A narrow search
+  // follows places that lie closer together, which are maxima of one basin.
+  double rival_of_first(const std::vector<Optimum>& places) const {
+    for (const Optimum& place : places)
+      if (apart(place.at, places.front().at) >= kBasin_mm) return place.value;
+    return 0;
+  }
+
   // Looks for a higher maximum beside the best place. There may be several within one basin, of which the searches so
   // far have found any.
   Optimum look_around(Optimum best, const EvaluateAll& evaluate) const {
@@ -224,13 +232,13 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     rough = run.distinct(std::move(rough), kFineStarts);
     run.confirmed = run.confirmed || !wanders;
     if (!wanders) break;
-    if (run.confirmed && (rough.size() == 1 || rough[1].value < kAmbiguous * rough[0].value)) break;
+    if (run.confirmed && run.rival_of_first(rough) < kAmbiguous * rough.front().value) break;
   }
   // A narrower search has looked there already.
   const bool is_wide = std::max(settings.search_mm, settings.search_deg) > kAround_mm;
   const Optimum best = is_wide ? run.look_around(rough.front(), fine) : rough.front();
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
-  if (rough.size() > 1) result.runner_up = rough[1].value;
+  result.runner_up = run.rival_of_first(rough);
   EvaluateAll last = fine;
   if (settings.freedom == Freedom::affine) {
     result.motion.freedom = Freedom::affine;

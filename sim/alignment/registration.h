@@ -61,7 +61,7 @@ struct SweepRegistration {
   Parameters at;                  ///< where the search ended
   glm::dmat4 ct_from_sweep{1.0};  ///< the map there
   double similarity_before = 0, similarity_after = 0;
-  double runner_up = 0;                 ///< highest similarity of the fine stage's other ends; 0 if there is none
+  double runner_up = 0;  ///< highest similarity of the fine stage's ends that are another place; 0 if there is none
   std::vector<std::string> doubts;      ///< why it did not converge, as parts of sentences; empty if it did
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
   double expected_error_mm = 0;         ///< root mean square over the target points, from the parameters' covariance

@@ -86,6 +86,17 @@ TEST_CASE("registrations from several starts end about equally high") {
   CHECK(lowest > 0.99 * highest);
 }
 
+TEST_CASE("a narrow search around a place that is right does not doubt it for what lies beside it") {
+  Fixture f;
+  f.settings.search_mm = f.settings.search_deg = 2;
+  for (const double off_mm : {0.5, 1.5, 2.5}) {
+    const SweepRegistration found = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({off_mm, 0, -off_mm}, 1));
+    INFO("next " << found.runner_up << (found.doubts.empty() ? "" : found.doubts.front()));
+    CHECK(found.converged());
+    CHECK(f.error(found) < 2);
+  }
+}
+
 TEST_CASE("equal registrations give equal results") {
   const Fixture f;
   const SweepRegistration one = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3)),
