@@ -156,13 +156,16 @@ bool LiveRegistrar::begin_round(Task& task) {
     } catch (const InputError& error) {
       problem = error.what();
     }
+    const bool too_few = problem.empty() && task.sweep.images.size() < kLeastImages;
+    if (too_few) problem = "Too few of the images show what lies in the CT; move the probe.";
     lock.lock();
     state_.problem = problem;
-    state_.in_use = task.sweep.images.size();
-    if (problem.empty() && state_.in_use >= kLeastImages) {
+    if (problem.empty()) {
+      state_.in_use = task.sweep.images.size();
       state_.work = task.wide ? Work::searching : Work::refining;
       return true;
     }
+    wants_wide_ |= task.wide && !searches;  // which somebody has asked for
     state_.work = Work::waiting;
   }
   return false;

@@ -85,7 +85,7 @@ void LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_f
   constexpr double kMostLeftOut = 0.5;
   check_shows_fan(input_.file, sweep);
   check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
-  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep, input_.file) > kMostLeftOut)
+  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep) > kMostLeftOut)
     throw InputError(input_.file, "", "most of what the images show lies where the CT ends",
                      "move the probe away from the CT's ends");
 }

@@ -21,7 +21,7 @@ std::string bundled_log() {
 }
 
 /// Returns what the learner, who may look at the picture alone, is told when a step gives way to another; nothing if
-/// they ended it themselves or may come back to it.
+/// they ended it themselves before it was done, or may come back to it.
 std::string how_step_ended(const Runner& runner, std::size_t step) {
   if (!runner.has_ended(step)) return "";
   const std::string number = "Step " + std::to_string(step + 1);

@@ -29,7 +29,7 @@ constexpr int kClimbs = 3;                                 // most repetitions o
 constexpr std::size_t kAround = 128, kAroundFollowed = 8;  // places around the best one, at the end
 constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5;
 constexpr std::size_t kMostLooks = 5;  // around, each time at other places, while the similarity still rises
-constexpr double kHigher = 1.002;
+constexpr double kRise = 0.002;        // of the similarity
 constexpr double kMostStretch = 0.15;
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
@@ -81,12 +81,13 @@ struct Run {
     return kept;
   }
 
-  // Returns the similarity of the best place that is another one than the first; 0 if there is none. A narrow search
-  // follows places that lie closer together, which are maxima of one basin.
-  double rival_of_first(const std::vector<Optimum>& places) const {
-    for (const Optimum& place : places)
-      if (apart(place.at, places.front().at) >= kBasin_mm) return place.value;
-    return 0;
+  // Returns the highest similarity of the ends that are another place than `best`; 0 if there is none. Ends that lie
+  // closer together are maxima of one basin, though a narrow search follows each of them.
+  double rival_of(const Optimum& best, const std::vector<Optimum>& ends) const {
+    double highest = 0;
+    for (const Optimum& end : ends)
+      if (apart(end.at, best.at) >= kBasin_mm) highest = std::max(highest, end.value);
+    return highest;
   }
 
   // Looks for a higher maximum beside the best place. There may be several within one basin, of which the searches so
@@ -105,7 +106,7 @@ struct Run {
         followed.push_back(each.at);
       const double before = best.value;
       best = distinct(maximise_from(followed, evaluate, search(1, 0.2, 80)), 1).front();
-      if (round > 0 && best.value < kHigher * before) break;
+      if (round > 0 && best.value - before < kRise * std::abs(before)) break;
     }
     return best;
   }
@@ -205,7 +206,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
 
   // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds in
   // succession have found it.
-  std::vector<Optimum> rough;
+  std::vector<Optimum> rough, ends;  // the best of all rounds' ends, and all of them
   const bool wanders = settings.search_mm > 0 || settings.search_deg > 0;
   for (int round = 0; round < settings.rounds; ++round) {
     std::vector<Parameters> starts;
@@ -226,19 +227,20 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
       promising.push_back(each.at);
     // The small images of the stage before may lead away from a start that is right already.
     if (round == 0) promising.push_back(none);
-    std::vector<Optimum> of_round = run.distinct(maximise_from(promising, fine, run.search(2, 0.5, 40)), kFineStarts);
+    std::vector<Optimum> of_round = maximise_from(promising, fine, run.search(2, 0.5, 40));
+    ends.insert(ends.end(), of_round.begin(), of_round.end());
+    of_round = run.distinct(std::move(of_round), kFineStarts);
     run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
     for (Optimum& each : of_round) rough.push_back(std::move(each));
     rough = run.distinct(std::move(rough), kFineStarts);
     run.confirmed = run.confirmed || !wanders;
     if (!wanders) break;
-    if (run.confirmed && run.rival_of_first(rough) < kAmbiguous * rough.front().value) break;
+    if (run.confirmed && run.rival_of(rough.front(), ends) < kAmbiguous * rough.front().value) break;
   }
   // A narrower search has looked there already.
   const bool is_wide = std::max(settings.search_mm, settings.search_deg) > kAround_mm;
   const Optimum best = is_wide ? run.look_around(rough.front(), fine) : rough.front();
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
-  result.runner_up = run.rival_of_first(rough);
   EvaluateAll last = fine;
   if (settings.freedom == Freedom::affine) {
     result.motion.freedom = Freedom::affine;
@@ -247,6 +249,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
   }
   const Uncertainty uncertainty = run.climb_on(end, last, compared_);
+  result.runner_up = run.rival_of(end, ends);
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);

@@ -44,7 +44,7 @@ bool out_of_memory() {
 
 // Lets what shaders have written to a buffer be copied to a texture. OpenGL asks for GL_PIXEL_BUFFER_BARRIER_BIT alone.
 // With only that, NVIDIA's driver 580 on an H100 copied what the buffer held before.
-void wait_until_written() {
+void order_copy_after_writes() {
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
@@ -136,7 +136,7 @@ void Texture::write(GLenum layout, GLenum type, const void* pixels) {
 }
 
 void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
-  wait_until_written();
+  order_copy_after_writes();
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
   write(layout, type, static_cast<const void*>(nullptr));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -145,7 +145,7 @@ void Texture::write(GLenum layout, GLenum type, const Buffer& pixels) {
 void Texture::write_slices(GLenum layout, GLenum type, int first, int count, const Buffer& pixels) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   forget_errors();
-  wait_until_written();
+  order_copy_after_writes();
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, pixels.name());
   glTextureSubImage3D(object_.name(), 0, 0, 0, first, width_, height_, count, layout, type, nullptr);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

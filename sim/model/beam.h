@@ -82,7 +82,8 @@ struct SlicePlane {
 /// of odd lines by as much to the other side. The beam sums over neighbouring lines, and thus over twice as many
 /// planes. Otherwise a rib that is steep in elevation would be a ladder: one echo for each plane. Patterns of more than
 /// two lines would show as stripes in shadows. For the same reason every second plane lies halfway to a neighbouring
-/// line: a diaphragm that is steep in the plane would be a row of dashes, one for each line.
+/// line: a diaphragm that is steep in the plane would be a row of dashes, one for each line. Both halves of the slice
+/// meet between two lines, one half from either line. So these places are not their own mirror image.
 std::vector<SlicePlane> slice_planes(const Settings& settings);
 
 /// Returns what lies beside a line, at a share of the distance to the next one (-1 to 1; below 0 to the one before).

@@ -121,11 +121,11 @@ void ShotMaker::add_log(Way& way) const {
                         "take a log of a probe that was tracked"}});
 }
 
-// Returns whether a probe's face lies deeper in the body than a hand presses, as in the recording of another patient.
+// Returns whether the middle of a probe's face lies deep in tissue, as in the recording of another patient.
 bool ShotMaker::is_within_body(const Pose& patient_from_probe) const {
-  constexpr double kMostPressed_mm = 60;
+  constexpr double kDeepest_mm = 60;
   return !distance_out_of_body(case_->ct, patient_from_probe.translation, patient_from_probe.direction({0, -1, 0}),
-                               kMostPressed_mm);
+                               kDeepest_mm);
 }
 
 Shot ShotMaker::at(std::uint32_t index) const {

@@ -37,7 +37,10 @@ public:
     settings.image_height = int(ultrasound.shape(0));
     // The share of the picture that insonate-register's patches have.
     if (!settings_file) settings.similarity_patch = std::clamp(settings.image_width / 16, kLeastPatch, kMostPatch);
-    if (patch) settings.similarity_patch = *patch;
+    if (patch) {
+      settings.similarity_patch = *patch;
+      if (const auto why = why_not_valid(settings)) throw InputError("patch", "", *why, "give 0, or 4 to 128");
+    }
     if (const auto why = why_not_valid(settings))
       throw InputError(settings_file ? settings_file->string() : "ultrasound", "", *why, "give another size or file");
     Image<float> image(settings.image_width, settings.image_height);

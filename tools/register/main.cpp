@@ -189,7 +189,10 @@ int main(int argc, char** argv) {
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);
     check_start(subject_path, subject.ct, read.sweep, ct_from_sweep);
-    const double left_out = leave_out_ends(read.sweep, subject.ct, ct_from_sweep, recording);
+    const double left_out = leave_out_ends(read.sweep, subject.ct, ct_from_sweep);
+    if (read.sweep.images.size() < 2)
+      throw InputError(recording, "", "at the start fewer than two images show what lies in the CT",
+                       "give a nearer --start, or a CT of the region that was scanned");
     if (left_out > kMentioned)
       std::printf("Left out: %.0f %% of the images, which lie where the CT ends.\n", 100 * left_out);
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);

@@ -259,8 +259,7 @@ void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, cons
                      "draw it in the recording's frame, such as over sweep.nrrd of an earlier result");
 }
 
-double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep,
-                      const std::string& file) {
+double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep) {
   std::size_t known = 0, left_out = 0;
   keep_where(sweep, [&](float, const glm::dvec3& at) {
     const bool is_left_out = is_at_end(ct, glm::dvec3(ct_from_sweep * glm::dvec4(at, 1)));
@@ -268,9 +267,6 @@ double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const
     left_out += is_left_out;
     return !is_left_out;
   });
-  if (sweep.images.size() < 2)
-    throw InputError(file, "", "at the start fewer than two images show what lies in the CT",
-                     "give a nearer --start, or a CT of the region that was scanned");
   return known > 0 ? double(left_out) / double(known) : 0;
 }
 

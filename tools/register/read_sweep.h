@@ -83,10 +83,8 @@ void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, cons
 
 /// Leaves out the pixels that lie where the CT cuts the body at head or feet at the start, or beyond: there is nothing
 /// to compare them with, and a recording of Insonate is dark there, which would be taken for an edge of the CT. Images
-/// of which nothing is left are left out. Returns the share of the pixels that was left out. Throws InputError if fewer
-/// than two images are left.
-double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep,
-                      const std::string& file);
+/// of which nothing is left are left out. Returns the share of the pixels that was left out.
+double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep);
 
 /// Reads a probe from a TOML file: kind ("curvilinear", "linear" or "phased"), radius_mm and field_of_view_deg or
 /// width_mm as in Probe, and depth_mm. Throws InputError.

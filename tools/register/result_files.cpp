@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -150,6 +151,18 @@ std::string itk_transform(const glm::dmat4& matrix, const std::string& why) {
   return text + "\nFixedParameters: 0 0 0\n";
 }
 
+// Returns nothing for a folder, and for a file that cannot be read any more: it is no reason to lose a result.
+std::optional<std::string> digest_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> piece(1 << 20);
+  Digest digest;
+  while (in.read(piece.data(), std::streamsize(piece.size())) || in.gcount() > 0)
+    digest.add({piece.data(), std::size_t(in.gcount())});
+  return in.eof() ? std::optional(digest.text()) : std::nullopt;
+}
+
 std::string registration_json(const RegistrationReport& report) {
   const SweepRegistration& found = report.found;
   nlohmann::ordered_json json;
@@ -189,7 +202,7 @@ std::string registration_json(const RegistrationReport& report) {
   json["patch"] = report.settings.wein.similarity_patch;
   if (!report.command.empty()) json["command"] = report.command;
   for (const auto& [name, file] : {std::pair("recording_digest", report.recording), std::pair("ct_digest", report.ct)})
-    if (std::filesystem::is_regular_file(file)) json[name] = digest_of(read_file(file));
+    if (const auto digest = digest_of_file(file)) json[name] = *digest;
   for (const AboutLine& line : about_this_build()) json["made_by"][line.name] = line.text;
   if (report.free_form) json["free_form"] = free_form_json(*report.free_form, *report.free_form_settings);
   return json.dump(2) + "\n";

@@ -40,7 +40,8 @@ std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
 std::string verdict(const RegistrationReport& report);
 
 /// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON;
-/// and what it takes to repeat the registration: the arguments, this build, and the digests of both files.
+/// and what it takes to repeat the registration: the arguments, this build, and the digests of the files that the
+/// recording and the CT are named by, which are not those of a folder.
 std::string registration_json(const RegistrationReport& report);
 
 /// Returns every evaluation as CSV: number, stage, similarity and the parameters in mm. Those of a deformation have the
