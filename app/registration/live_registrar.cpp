@@ -92,6 +92,7 @@ void LiveRegistrar::search_widely() {
   {
     const std::lock_guard lock(mutex_);
     wants_wide_ = true;
+    refused_ = false;
   }
   changed_.notify_all();
 }
@@ -100,7 +101,7 @@ void LiveRegistrar::reset() {
   {
     const std::lock_guard lock(mutex_);
     ++epoch_;
-    wants_wide_ = has_wide_ = is_settled_ = false;
+    wants_wide_ = has_wide_ = is_settled_ = refused_ = false;
     done_window_ = 0;
     state_.ct_from_sweep = start_;
     state_.last.reset();
@@ -132,9 +133,10 @@ bool LiveRegistrar::begin_round(Task& task) {
   std::unique_lock lock(mutex_);
   for (; !ending_; changed_.wait_for(lock, std::chrono::milliseconds(100))) {
     const bool is_new = window_.version() != done_window_;
-    if (!is_new || !(refines_ || wants_wide_)) {
+    const bool is_due = wants_wide_ ? is_new || !refused_ : is_new && refines_;
+    if (!is_due) {
       if (!wants_wide_ && (!refines_ || state_.work != Work::waiting)) state_.work = Work::resting;
-      if (!wants_wide_) continue;
+      continue;
     }
     task.sweep = window_.chosen(std::size_t(settings_.slices));
     state_.in_use = task.sweep.images.size();
@@ -156,11 +158,13 @@ bool LiveRegistrar::begin_round(Task& task) {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    const bool too_few = problem.empty() && task.sweep.images.size() < kLeastImages;
-    if (too_few) problem = "Too few of the images show what lies in the CT; move the probe.";
+    if (problem.empty() && task.sweep.images.size() < kLeastImages)
+      problem = "Too few of the images show what lies in the CT; move the probe.";
     lock.lock();
+    if (task.epoch != epoch_) continue;
     state_.problem = problem;
-    if (problem.empty()) {
+    refused_ = !problem.empty();
+    if (!refused_) {
       state_.in_use = task.sweep.images.size();
       state_.work = task.wide ? Work::searching : Work::refining;
       return true;

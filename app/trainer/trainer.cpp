@@ -20,7 +20,7 @@ std::string bundled_log() {
   return "replay:" + (assets_folder() / "logs" / "ruq_good.igs.mha").string();
 }
 
-/// Returns what the learner, who may look at the picture alone, is told when a step gives way to another; nothing if
+/// Returns a sentence for the learner, who may look at the picture alone, when a step gives way to another; nothing if
 /// they ended it themselves before it was done, or may come back to it.
 std::string how_step_ended(const Runner& runner, std::size_t step) {
   if (!runner.has_ended(step)) return "";

@@ -145,8 +145,8 @@ TEST_CASE("a surface that is steep in the plane is a band, not a dash for each l
     for (int y = -2; y <= 2; ++y)
       brightest = std::max(brightest, stages.fused.at(int(std::lround(pixel.x)), int(std::lround(pixel.y)) + y));
     amplitudes.push_back(std::sqrt(brightest));
-    mean += amplitudes.back() / 320;
   }
+  for (const double each : amplitudes) mean += each / double(amplitudes.size());
   double variance = 0;
   for (const double each : amplitudes) variance += (each - mean) * (each - mean) / double(amplitudes.size());
   // Planes between lines weigh a little less than those on lines. One dash for each line would deviate by 0.67.

@@ -151,7 +151,7 @@ std::string itk_transform(const glm::dmat4& matrix, const std::string& why) {
   return text + "\nFixedParameters: 0 0 0\n";
 }
 
-// Returns nothing for a folder, and for a file that cannot be read any more: it is no reason to lose a result.
+// Returns nothing for a folder, and for a file that cannot be read any more: the result is written without its digest.
 std::optional<std::string> digest_of_file(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -219,6 +220,37 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % scan.images.size(), 1);
   wait_until(registrar, [](const LiveRegistrar::State& state) { return state.last->found.converged(); });
   CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
+}
+
+TEST_CASE("a wide search that the images do not suffice for waits for other images, and is not forgotten") {
+  const test::Scan& scan = patient().scan;
+  SweepInput input;
+  input.probe = *find_probe("curvilinear");
+  input.depth_mm = kDepthMm;
+  RegistrationSettings settings;
+  settings.search_mm = settings.search_deg = 12;
+  settings.scattered = 300;
+  settings.slices = 20;
+  std::atomic<int> asked{0};
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, scan.ct_from_tracker, settings, false, false,
+                          [&](const TrackedSweep&, const glm::dmat4&) {
+                            if (++asked < 3) throw InputError("images", "", "they show nothing", "take others");
+                          });
+  const auto add = [&](std::size_t at) {
+    registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
+  };
+  registrar.refine(false);
+  for (std::size_t n = 0; n < scan.images.size() - 2; ++n) add(n);
+  registrar.search_widely();
+  for (int times = 1; times < 3; ++times) {
+    wait_until(registrar, [&](const LiveRegistrar::State&) { return asked == times; });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // five times as long as it waits at most
+    CHECK(asked == times);
+    CHECK(registrar.state().problem == "images: they show nothing; take others.");
+    add(scan.images.size() - 3 + std::size_t(times));
+  }
+  wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
+  for (const std::string& doubt : registrar.state().last->found.doubts) CHECK_THAT(doubt, !Contains("no wide search"));
 }
 
 TEST_CASE("images that carry their own place are registered, with the probe that they show") {

@@ -271,7 +271,7 @@ TEST_CASE("a volume of ultrasound is read as slices along its beam, and one that
   CHECK(grey.at(grey.width / 2, grey.height / 4) < grey.at(grey.width / 2, 3 * grey.height / 4));
 
   // Where numbers below 0 mark what is not known, black is known. The slices reach from the middle of the first row to
-  // that of the 24th.
+  // that of the 24th, and a row of voxels is some 4 rows of their 96 pixels, of which one may count as either.
   const auto known_of = [&](const std::string& file) {
     const ReadSweep of_file = read_volume_sweep(file, along_y, {});
     const std::vector<float>& pixels = of_file.sweep.images[10].grey.pixels;
