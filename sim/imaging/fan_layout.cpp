@@ -1,6 +1,7 @@
 #include "sim/imaging/fan_layout.h"
 
 #include <glm/common.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -15,13 +16,14 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
                      const WorkDivision& division)
     : geometry(image_geometry(probe, depth_mm, width, height)), inside(width, height) {
   line_and_sample.assign(inside.pixels.size(), glm::vec2(-2));
-  std::size_t pixel = 0;
-  for (int y = 0; y < height; ++y)
+  tbb::parallel_for(0, height, [&](int y) {
+    std::size_t pixel = std::size_t(y) * std::size_t(width);
     for (int x = 0; x < width; ++x, ++pixel)
       if (const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y))) {
         inside.pixels[pixel] = 1;
         line_and_sample[pixel] = glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5);
       }
+  });
 
   const auto touched = [&](const glm::ivec2& low) {
     for (int y = low.y; y < std::min(low.y + kBlock.y, height); ++y)
@@ -37,12 +39,13 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
 }
 
 std::vector<glm::vec2> places_among(const ScanLines& lines, const ImageGeometry& geometry) {
-  std::vector<glm::vec2> places;
-  for (int y = 0; y < geometry.height; ++y)
-    for (int x = 0; x < geometry.width; ++x) {
-      const auto at = position_within(lines, geometry.plane_mm(x, y));
-      places.push_back(at ? glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5) : glm::vec2(-2));
-    }
+  std::vector<glm::vec2> places(std::size_t(geometry.width) * std::size_t(geometry.height), glm::vec2(-2));
+  tbb::parallel_for(0, geometry.height, [&](int y) {
+    glm::vec2* place = places.data() + std::size_t(y) * std::size_t(geometry.width);
+    for (int x = 0; x < geometry.width; ++x, ++place)
+      if (const auto at = position_within(lines, geometry.plane_mm(x, y)))
+        *place = glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5);
+  });
   return places;
 }
 

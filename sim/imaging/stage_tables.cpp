@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -262,12 +263,14 @@ TexelBuffer noise_waves_of_lines(const ScanLines& lines, const Settings& setting
 
 TexelBuffer noise_waves_of_pixels(const ImageGeometry& geometry, const ScanLines& lines, const Settings& settings) {
   const Image<std::complex<double>> of_samples = noise_wave(lines, settings);
-  std::vector<glm::vec2> of_pixels;
-  for (int y = 0; y < geometry.height; ++y)
+  std::vector<glm::vec2> of_pixels(std::size_t(geometry.width) * std::size_t(geometry.height));
+  tbb::parallel_for(0, geometry.height, [&](int y) {
+    glm::vec2* pixel = of_pixels.data() + std::size_t(y) * std::size_t(geometry.width);
     for (int x = 0; x < geometry.width; ++x) {
       const std::complex<double> noise = noise_of_pixel(of_samples, geometry, lines, x, y);
-      of_pixels.emplace_back(noise.real(), noise.imag());
+      *pixel++ = glm::vec2(noise.real(), noise.imag());
     }
+  });
   return TexelBuffer(GL_RG32F, of_pixels.size(), of_pixels.data());
 }
 

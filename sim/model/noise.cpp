@@ -1,6 +1,7 @@
 #include "sim/model/noise.h"
 
 #include <glm/gtc/constants.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -25,7 +26,7 @@ std::complex<double> complex_normal(std::uint32_t line, std::uint32_t place) {
 Image<std::complex<double>> filtered_noise(const ScanLines& lines, const Settings& settings) {
   Image<std::complex<double>> noise(int(lines.lines.size()), lines.samples);
   const double step = lines.dr_mm() / settings.reflection_length_mm;
-  for (int line = 0; line < noise.width; ++line) {
+  tbb::parallel_for(0, noise.width, [&](int line) {
     std::uint32_t place = 0;
     std::complex<double> before = complex_normal(std::uint32_t(line), 0),
                          behind = complex_normal(std::uint32_t(line), 1);
@@ -39,7 +40,7 @@ Image<std::complex<double>> filtered_noise(const ScanLines& lines, const Setting
       const double f = position - place;
       noise.at(line, k) = ((1 - f) * before + f * behind) / std::hypot(1 - f, f);
     }
-  }
+  });
   return noise;
 }
 
@@ -73,16 +74,15 @@ std::complex<double> noise_of_pixel(const Image<std::complex<double>>& noise, co
   const LinePosition position = position_among(lines.fan, {plane_mm.x, std::abs(plane_mm.y)});
   const double line = position.line, sample = (position.r_mm - lines.r_min_mm) / lines.dr_mm() - 0.5;
   const double i = std::floor(line), k = std::floor(sample), fi = line - i, fk = sample - k;
-  const auto at = [&](double of_line, double of_sample) {
-    const auto wrapped = [](double value, int size) {
-      const int rest = int(std::fmod(value, double(size)));
-      return rest < 0 ? rest + size : rest;
-    };
-    return noise.at(wrapped(of_line, noise.width), wrapped(of_sample, noise.height));
+  const auto wrapped = [](double value, int size) {
+    const int rest = int(std::fmod(value, double(size)));
+    return rest < 0 ? rest + size : rest;
   };
+  const int i0 = wrapped(i, noise.width), i1 = i0 + 1 < noise.width ? i0 + 1 : 0;
+  const int k0 = wrapped(k, noise.height), k1 = k0 + 1 < noise.height ? k0 + 1 : 0;
   // Lines are independent, so that a mean of two has less power than either.
-  return ((1 - fi) * ((1 - fk) * at(i, k) + fk * at(i, k + 1)) +
-          fi * ((1 - fk) * at(i + 1, k) + fk * at(i + 1, k + 1))) /
+  return ((1 - fi) * ((1 - fk) * noise.at(i0, k0) + fk * noise.at(i0, k1)) +
+          fi * ((1 - fk) * noise.at(i1, k0) + fk * noise.at(i1, k1))) /
          std::hypot(1 - fi, fi);
 }
 
