@@ -319,15 +319,19 @@ FanSearch find_fan(const Image<std::uint8_t>& mask, const glm::dvec2& mm_per_pix
   return as_probe(fitter, best, mm_per_pixel);
 }
 
-std::string description(const FoundFan& fan) {
+std::string probe_description(const FoundFan& fan) {
   const Probe& probe = fan.probe;
   std::string text = probe.name;
   if (probe.kind == ProbeKind::curvilinear) text += ", radius " + formatted("%.1f", probe.radius_mm) + " mm";
   if (probe.kind != ProbeKind::linear)
     text += ", field of view " + formatted("%.1f", probe.field_of_view_deg) + " degrees";
   if (probe.kind != ProbeKind::curvilinear) text += ", width " + formatted("%.1f", probe.width_mm) + " mm";
-  text += ", depth " + formatted("%.1f", fan.depth_mm) + " mm, face at pixel " + formatted("%.1f", fan.face_pixel.x) +
-          ", " + formatted("%.1f", fan.face_pixel.y);
+  return text + ", depth " + formatted("%.1f", fan.depth_mm) + " mm";
+}
+
+std::string description(const FoundFan& fan) {
+  std::string text = probe_description(fan) + ", face at pixel " + formatted("%.1f", fan.face_pixel.x) + ", " +
+                     formatted("%.1f", fan.face_pixel.y);
   if (fan.shown < 0.99) text += "; the images show " + formatted("%.0f", 100 * fan.shown) + " % of it";
   return text;
 }

@@ -40,5 +40,7 @@ FanSearch find_fan(const Image<std::uint8_t>& mask, const glm::dvec2& mm_per_pix
 
 /// Returns a found fan in one sentence for the user: "curvilinear, radius 60.2 mm, ...".
 std::string description(const FoundFan& fan);
+/// The same without the face's pixel and how much of the fan is shown.
+std::string probe_description(const FoundFan& fan);
 
 }  // namespace insonate

@@ -96,8 +96,9 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   CLI::Option* along = arguments
                            .add_option("--beam", beam,
-                                       "Take RECORDING to be a 3D ultrasound volume (NRRD, MetaImage, NIfTI) whose "
-                                       "sound ran in this direction of its frame (LPS)")
+                                       "Take RECORDING to be a 3D ultrasound volume (NRRD, MetaImage, NIfTI) in whose "
+                                       "middle the sound ran in this direction of its frame (LPS). Its probe, and "
+                                       "how its planes lie, are found from its outline")
                            ->type_name("X,Y,Z")
                            ->delimiter(',')
                            ->expected(3);
@@ -186,6 +187,7 @@ int main(int argc, char** argv) {
     if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
     if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
+    if (!read.found_in_volume.empty()) std::printf("Found in the volume: %s.\n", read.found_in_volume.c_str());
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);
     check_start(subject_path, subject.ct, read.sweep, ct_from_sweep);

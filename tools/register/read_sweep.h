@@ -40,6 +40,7 @@ struct SweepInput {
 struct ReadSweep {
   TrackedSweep sweep;
   std::optional<FoundFan> fan;  ///< where the probe was found from the images
+  std::string found_in_volume;  ///< probe and planes as read_volume_sweep() found them, for the user; else empty
   std::size_t frames = 0;       ///< of the recording
   std::size_t left_out = 0;     ///< frames without a usable pose
 };

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
 #include "sim/volume/ct_reader.h"
+#include "tools/register/swept_planes.h"
 
 namespace insonate {
 namespace {
@@ -23,13 +25,7 @@ constexpr int kSamples = 3;           // per pixel along both of its sides
 constexpr double kLeastShown = 0.15;  // of the slices: a swept volume fills its box in part
 constexpr double kLeastAcross = 0.1;  // by which an axis has to lie across the beam to give the slices' rows
 
-/// The box around a volume along the axes of its slices.
-struct Box {
-  glm::dmat3 axes;       // columns: the slices' rows, the beam, and across the slices
-  glm::dvec3 low, high;  // along them, mm
-};
-
-Box box_of(const Grid& grid, const glm::dvec3& beam) {
+PlaneBox box_of(const Grid& grid, const glm::dvec3& beam) {
   // Rows run along the longest axis of the volume that lies across the beam.
   double longest = 0;
   glm::dvec3 along(0.0);
@@ -40,7 +36,7 @@ Box box_of(const Grid& grid, const glm::dvec3& beam) {
     longest = length;
     along = glm::normalize(across);
   }
-  Box box{glm::dmat3(along, beam, glm::cross(along, beam)), glm::dvec3(1e300), glm::dvec3(-1e300)};
+  PlaneBox box{glm::dmat3(along, beam, glm::cross(along, beam)), glm::dvec3(1e300), glm::dvec3(-1e300)};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 index((corner & 1) * (grid.size.x - 1), (corner >> 1 & 1) * (grid.size.y - 1),
                            (corner >> 2) * (grid.size.z - 1));
@@ -49,6 +45,14 @@ Box box_of(const Grid& grid, const glm::dvec3& beam) {
     box.high = glm::max(box.high, at);
   }
   return box;
+}
+
+std::string in_words(const FoundFan& fan, const SweptPlanes& planes, double face_y) {
+  std::string text = probe_description(fan);
+  if (planes.tilted)
+    text += formatted("; planes tilted over %.1f degrees about a line ", glm::degrees(planes.last - planes.first)) +
+            formatted("%.1f mm behind the face", face_y);
+  return text;
 }
 
 // Returns the least value that is known. A volume with numbers below 0 marks with them what is not, and black is known.
@@ -84,27 +88,40 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
   for (const char* ending : {".igs.mha", ".seq.mha", ".igs.nrrd", ".seq.nrrd"})
     if (file.ends_with(ending)) throw InputError(file, "", "it is a recording, not a volume", "leave out --beam");
   const Volume<std::int16_t> volume = read_case_ct(file);
-  const Box box = box_of(volume.grid, glm::normalize(beam));
+  const PlaneBox box = box_of(volume.grid, glm::normalize(beam));
   const glm::dvec3 size = box.high - box.low;
   const auto check = [&](const char* what, double value, double least, double most) {
     if (!(value >= least && value <= most))
       throw InputError(file, "", formatted("it is %.0f mm %s, not %.0f to %.0f", value, what, least, most),
                        "crop it, or see whether --beam is right");
   };
-  check("wide across the beam", size.x, 5, 200);
-  check("deep along the beam", size.y, 10, 400);
+  const std::int16_t least = least_known(volume);
+  const auto known_at = [&](const glm::ivec3& index) { return volume.at(index) >= least; };
+  SweptPlanes planes = find_swept_planes(volume.grid, box, known_at);
+  const double mm = std::max({volume.grid.spacing.x, volume.grid.spacing.y, volume.grid.spacing.z});
+  const FanSearch search = find_fan(known_in_planes(volume.grid, box, planes, mm, known_at), glm::dvec2(mm));
   ReadSweep read;
   TrackedSweep& sweep = read.sweep;
-  sweep.probe = *find_probe("linear");
-  sweep.probe.width_mm = size.x;
-  sweep.probe.depth_mm = sweep.depth_mm = size.y;
+  glm::dvec2 face((box.low.x + box.high.x) / 2, box.low.y);  // its middle, in each plane
+  if (search.fan && (planes.tilted || search.fan->probe.kind != ProbeKind::linear)) {
+    sweep.probe = search.fan->probe;
+    sweep.depth_mm = search.fan->depth_mm;
+    face = glm::dvec2(box.low.x, planes.depths(box).x) + mm * search.fan->face_pixel;
+    read.found_in_volume = in_words(*search.fan, planes, face.y);
+  } else {
+    check("wide across the beam", size.x, 5, 200);
+    check("deep along the beam", size.y, 10, 400);
+    planes = {box.low.z, box.high.z};
+    sweep.probe = *find_probe("linear");
+    sweep.probe.width_mm = size.x;
+    sweep.probe.depth_mm = sweep.depth_mm = size.y;
+  }
   sweep.probe.lines = input.width;
   const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, input.width, input.height);
-  const std::int16_t least = least_known(volume);
   read.frames = std::size_t(input.slices);
   for (int slice = 0; slice < input.slices; ++slice) {
-    const double across = box.low.z + (slice + 0.5) / input.slices * size.z;
-    const Pose pose{box.axes, box.axes * glm::dvec3((box.low.x + box.high.x) / 2, box.low.y, across)};
+    Pose pose = planes.plane(box, (slice + 0.5) / input.slices);
+    pose.translation = pose.point(glm::dvec3(face, 0));
     SweepImage image{pose, Image<float>(input.width, input.height)};
     std::size_t known = 0;
     for (int y = 0; y < input.height; ++y)

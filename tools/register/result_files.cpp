@@ -122,8 +122,9 @@ constexpr char kStyle[] =
     "body{font:15px/1.5 sans-serif;color:#1d2733;max-width:1500px;margin:2em auto;padding:0 1em}"
     ".verdict{font-weight:600;padding:.6em 1em;border-left:6px solid #2e7d4f;background:#eef6f0}"
     ".verdict.no{border-color:#b3362b;background:#fbeeec}th{text-align:left;padding-right:2em;font-weight:400}"
-    "td{font-variant-numeric:tabular-nums}.row{display:flex;gap:8px;flex-wrap:wrap}figure{margin:0 0 1em}"
-    "img{width:280px;display:block}figcaption{font-size:12px;color:#5f6c7b}";
+    "td{font-variant-numeric:tabular-nums}.row{display:grid;gap:8px;"
+    "grid-template-columns:repeat(5,minmax(0,1fr))}figure{margin:0 0 "
+    "1em}img{width:100%;display:block}figcaption{font-size:12px;color:#5f6c7b}";
 
 }  // namespace
 
@@ -238,6 +239,8 @@ std::string registration_page(const RegistrationReport& report) {
   html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
                                " of " + std::to_string(report.input.frames) + " images");
   if (report.input.fan) html += row("Probe, found from the images", escaped(description(*report.input.fan)));
+  if (!report.input.found_in_volume.empty())
+    html += row("Probe, found in the volume", escaped(report.input.found_in_volume));
   html += row("Similarity (" + std::string(to_string(report.settings.measure)) + ") before and after",
               fixed(found.similarity_before, 4) + " &rarr; " + fixed(found.similarity_after, 4));
   html += row("Similarity of the next best place", found.runner_up > 0 ? fixed(found.runner_up, 4) : "none was found");
@@ -251,10 +254,10 @@ std::string registration_page(const RegistrationReport& report) {
       "</table>\n<p>The blends show the ultrasound in orange and the CT in blue. Where both are bright they are "
       "white. The probe's marker is on the left.</p>\n";
   for (const ComparisonPictures& one : report.pictures)
-    html += "<h2>Image " + std::to_string(one.image + 1) + "</h2>\n<div class='row'>" +
-            figure(one.ultrasound, "Ultrasound") + figure(one.ct_before, "CT, before") +
-            figure(one.blend_before, "Both, before") + figure(one.ct_after, "CT, after") +
-            figure(one.blend_after, "Both, after") +
+    html += "<h2>Image " + std::to_string(one.image + 1) + " of " + std::to_string(report.input.sweep.images.size()) +
+            " that were compared</h2>\n<div class='row'>" + figure(one.ultrasound, "Ultrasound") +
+            figure(one.ct_before, "CT, before") + figure(one.blend_before, "Both, before") +
+            figure(one.ct_after, "CT, after") + figure(one.blend_after, "Both, after") +
             (one.ct_deformed.empty()
                  ? std::string()
                  : figure(one.ct_deformed, "CT, deformed") + figure(one.blend_deformed, "Both, deformed")) +

@@ -191,7 +191,7 @@ TEST_CASE("a recording is registered with the probe that its images show") {
         std::string::npos);
 }
 
-TEST_CASE("a volume of a sweep is registered along its beam") {
+TEST_CASE("a volume of a sweep is registered by the probe and the planes that it shows") {
   const Workplace place;
   // The sweep as a volume of voxels of 1 mm, in the recording's frame.
   REQUIRE(place.run(place.in("sweep.igs.mha") + " " + place.in("first")).code == 0);
@@ -201,7 +201,10 @@ TEST_CASE("a volume of a sweep is registered along its beam") {
   INFO(outcome.errors << outcome.output);
   REQUIRE((outcome.code == 0 || outcome.code == 3));
   const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
-  CHECK(json["probe"]["kind"] == "linear");
+  CHECK(outcome.output.find("Found in the volume: curvilinear, radius ") == 0);
+  CHECK(json["probe"]["kind"] == "curvilinear");
+  CHECK(json["probe"]["radius_mm"].get<double>() == Approx(60).margin(3));  // from voxels of 1 mm
+  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepthMm).margin(2));
   // The shift of the recording, within the size of the CT's voxels.
   const double shift[] = {3, -2, 4};
   for (std::size_t row = 0; row < 3; ++row) {

@@ -1,0 +1,118 @@
+#include "tools/register/swept_planes.h"
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace insonate {
+namespace {
+
+constexpr double kLeastOpening = glm::radians(3.0);
+constexpr double kTop = 0.1,
+                 kDeep = 0.95;  // of the way from the wedge's top to its widest row: the sides are fitted there
+constexpr int kLeastRows = 8;
+constexpr double kMost_mm = 3;  // that a side may lie off its line, root mean square
+
+/// z = at + slope y.
+struct Side {
+  double at, slope;
+};
+
+/// Returns the line through points (y, z) by least squares, nothing where they do not lie on one.
+std::optional<Side> side_of(const std::vector<glm::dvec2>& points) {
+  if (int(points.size()) < kLeastRows) return std::nullopt;
+  glm::dvec2 mean(0.0);
+  for (const glm::dvec2& point : points) mean += point / double(points.size());
+  double yy = 0, yz = 0;
+  for (const glm::dvec2& point : points) {
+    yy += (point.x - mean.x) * (point.x - mean.x);
+    yz += (point.x - mean.x) * (point.y - mean.y);
+  }
+  const Side side{mean.y - yz / yy * mean.x, yz / yy};
+  double squares = 0;
+  for (const glm::dvec2& point : points) squares += std::pow(point.y - side.at - side.slope * point.x, 2);
+  if (!(std::sqrt(squares / double(points.size())) < kMost_mm)) return std::nullopt;
+  return side;
+}
+
+}  // namespace
+
+Pose SweptPlanes::plane(const PlaneBox& box, double share) const {
+  const double at = glm::mix(first, last, share);
+  if (!tilted) return {box.axes, box.axes[2] * at};
+  const glm::dvec3 beam = std::cos(at) * box.axes[1] + std::sin(at) * box.axes[2];
+  const glm::dvec3 across = std::cos(at) * box.axes[2] - std::sin(at) * box.axes[1];
+  return {glm::dmat3(box.axes[0], beam, across), axis_y * box.axes[1] + axis_z * box.axes[2]};
+}
+
+glm::dvec2 SweptPlanes::depths(const PlaneBox& box) const {
+  if (!tilted) return {box.low.y, box.high.y};
+  return {std::max(box.low.y - axis_y, 0.0),
+          std::hypot(box.high.y - axis_y, std::max(box.high.z - axis_z, axis_z - box.low.z))};
+}
+
+SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
+                              const std::function<bool(const glm::ivec3&)>& known) {
+  SweptPlanes planes{box.low.z, box.high.z};
+  // Outermost known voxels per row of the wedge.
+  const double mm = 1.5 * std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  const int rows = std::max(1, int((box.high.y - box.low.y) / mm) + 1);
+  std::vector<glm::dvec2> extent(std::size_t(rows), glm::dvec2(1e300, -1e300));
+  for (int z = 0; z < grid.size.z; ++z)
+    for (int y = 0; y < grid.size.y; ++y)
+      for (int x = 0; x < grid.size.x; ++x) {
+        const glm::ivec3 index(x, y, z);
+        if (!known(index)) continue;
+        const glm::dvec3 at = glm::transpose(box.axes) * grid.patient_from_index(glm::dvec3(index));
+        glm::dvec2& row = extent[std::size_t(std::clamp(int((at.y - box.low.y) / mm), 0, rows - 1))];
+        row = {std::min(row.x, at.z), std::max(row.y, at.z)};
+      }
+  const auto filled = [](const glm::dvec2& row) { return row.x <= row.y; };
+  const auto top = std::ranges::find_if(extent, filled);
+  const auto widest = std::ranges::max_element(extent, {}, [](const glm::dvec2& row) { return row.y - row.x; });
+  if (top == extent.end() || widest <= top) return planes;
+  std::vector<glm::dvec2> low, high;
+  for (auto row = top + std::ptrdiff_t(kTop * double(widest - top));
+       row < top + std::ptrdiff_t(kDeep * double(widest - top)); ++row) {
+    if (!filled(*row)) continue;
+    const double y = box.low.y + (double(row - extent.begin()) + 0.5) * mm;
+    low.emplace_back(y, row->x);
+    high.emplace_back(y, row->y);
+  }
+  const std::optional<Side> lower = side_of(low), upper = side_of(high);
+  if (!lower || !upper) return planes;
+  const double from = std::atan(lower->slope), to = std::atan(upper->slope);
+  if (to - from < kLeastOpening) return planes;
+  planes.tilted = true;
+  planes.first = from;
+  planes.last = to;
+  planes.axis_y = (lower->at - upper->at) / (upper->slope - lower->slope);
+  planes.axis_z = lower->at + lower->slope * planes.axis_y;
+  return planes;
+}
+
+Image<std::uint8_t> known_in_planes(const Grid& grid, const PlaneBox& box, const SweptPlanes& planes, double mm,
+                                    const std::function<bool(const glm::ivec3&)>& known) {
+  // A single plane may reach up to a voxel further than the fan at any of its edges.
+  constexpr int kPlanes = 48, kLeastPlanes = 5;
+  const glm::dvec2 depths = planes.depths(box);
+  Image<std::uint8_t> seen(std::max(1, int((box.high.x - box.low.x) / mm) + 1),
+                           std::max(1, int((depths.y - depths.x) / mm) + 1));
+  for (int i = 0; i < kPlanes; ++i) {
+    const Pose plane = planes.plane(box, (i + 0.5) / kPlanes);
+    for (int y = 0; y < seen.height; ++y)
+      for (int x = 0; x < seen.width; ++x) {
+        const glm::dvec3 at = plane.point({box.low.x + x * mm, depths.x + y * mm, 0});
+        const glm::ivec3 nearest(glm::round(grid.index_from_patient(at)));
+        seen.at(x, y) += grid.contains(nearest) && known(nearest);
+      }
+  }
+  for (std::uint8_t& pixel : seen.pixels) pixel = pixel >= kLeastPlanes;
+  return seen;
+}
+
+}  // namespace insonate
