@@ -43,6 +43,7 @@ int run_registration_headless(const RegistrationOptions& options) {
     if (state.work == LiveRegistrar::Work::failed) break;
     std::this_thread::sleep_for(kStep);
   }
+  if (!options.state_file.empty()) write_registration_state(options.state_file, session);  // how it ended
   const LiveRegistrar::State state = session.state();
   if (!state.last) {
     const std::string problem = session.problem();

@@ -30,7 +30,7 @@ grep -q '^Converged: the expected error' "$work/said" || fail "no verdict"
 for file in registration.json ct_from_sweep.tfm sweep_from_ct.tfm scene.mrml sweep.nrrd evaluations.csv index.html; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
-grep -q '"work":' "$work/state.json" || fail "no state"
+grep -q '"converged": true' "$work/state.json" || fail "the state is not that at the end"
 # Where both maps put the tracker's point that truly lies in the middle of the body. A voxel is 1.3 to 2.1 mm large.
 cat "$work/truth.txt" "$work/out/ct_from_sweep.tfm" | awk '
   NR <= 3 { for (c = 1; c <= 4; ++c) t[NR, c] = $c }
