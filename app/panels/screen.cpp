@@ -76,7 +76,7 @@ void Screen::lay_out(const Trainer& trainer, float width, float height) {
   }
   guide_ = {};
   if (trainer.session() && trainer.guide().now(*trainer.session())) {
-    guide_ = rest.take_top(guide_strip_height(theme_, rest.w));
+    guide_ = rest.take_top(guide_strip_height(theme_));
     rest.take_top(gap);
   }
   // A replay has charts below its time line.

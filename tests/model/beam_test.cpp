@@ -1,6 +1,7 @@
 #include "sim/model/beam.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>

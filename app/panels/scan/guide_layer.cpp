@@ -10,13 +10,6 @@ namespace insonate::ui {
 namespace {
 
 constexpr float kMargin = 8, kRow = 22, kBetween = 16, kKeyGap = 8;
-/// As long as advice becomes, with its keys. The strip's height must not change while the probe moves.
-constexpr const char* kLongest =
-    "Slide 188 mm towards the head and the patient's right. then Rotate 120\u00b0 counter-clockwise. then Tilt "
-    "45\u00b0, "
-    "the beam towards the patient's right. then Rock 45\u00b0, the beam away from the marker.";
-constexpr float kLongestKeys = 4 * 60;
-
 float key_width(const Theme& theme, const std::string& key) {
   return text_width(theme.small_text, key) + theme.px(14);
 }
@@ -45,9 +38,8 @@ void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, c
   drawing.path(handle, colour::kText, theme.px(2));
 }
 
-float guide_strip_height(const Theme& theme, float width) {
-  const float longest = text_width(theme.text, kLongest) + theme.px(kLongestKeys);
-  return theme.px(2 * kMargin + (longest > width - theme.px(2 * 16) ? 3 : 2) * kRow);
+float guide_strip_height(const Theme& theme) {
+  return theme.px(2 * kMargin + 2 * kRow);
 }
 
 void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
@@ -65,12 +57,13 @@ void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guid
   const auto draw = [&](ImFont* font, ImU32 ink, const std::string& text) {
     draw_text(rest.take_left(std::min(rest.w, text_width(font, text) + 1)), font, ink, text);
   };
-  Rect below = rest;
-  rest = below.take_top(theme.px(kRow));
   for (std::size_t i = 0; i < guiding.advice.size(); ++i) {
     const float key = i < guiding.keys.size() ? theme.px(kKeyGap) + key_width(theme, guiding.keys[i]) : 0;
-    if (text_width(theme.text, "then " + guiding.advice[i]) + key > rest.w && below.h >= theme.px(kRow) - 1)
-      rest = below.take_top(theme.px(kRow));
+    const bool is_last = i + 1 == guiding.advice.size();
+    const float needed = text_width(theme.text, "then " + guiding.advice[i]) + key +
+                         (is_last ? 0 : theme.px(kBetween) + text_width(theme.text, "\u2026"));
+    // One comes after the other, so what has no room comes later.
+    if (i > 0 && needed > rest.w) return draw(theme.text, colour::kMuted, "\u2026");
     const ImU32 ink = i == 0 ? colour::kText : colour::kMuted;
     if (i > 0) draw(theme.text, ink, "then ");
     draw(i == 0 ? theme.strong : theme.text, ink, guiding.advice[i]);

@@ -12,6 +12,6 @@ namespace insonate::ui {
 void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, const view::OrbitCamera& camera);
 /// @param counted  whether the report of a scored attempt will say that the guide was shown
 void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted);
-float guide_strip_height(const Theme& theme, float width);
+float guide_strip_height(const Theme& theme);
 
 }  // namespace insonate::ui

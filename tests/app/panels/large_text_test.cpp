@@ -101,7 +101,7 @@ TEST_CASE("advice of the guide has its keys in every size of text") {
   check_readable([&](const Theme& theme, const Rect& screen, std::map<std::string, Rect>&) {
     ImGui::Begin("guide");
     const float width = screen.w - theme.px(16);
-    draw_guide_strip(theme, {0, 0, width, guide_strip_height(theme, width)}, guiding, true);
+    draw_guide_strip(theme, {0, 0, width, guide_strip_height(theme)}, guiding, true);
     ImGui::End();
   });
 }
