@@ -48,6 +48,7 @@ Settings settings_of(const Machine& machine) {
   settings.persistence = machine.persistence;
   settings.edge_enhancement = machine.edge_enhancement;
   settings.speckle_reduction = machine.speckle_reduction;
+  settings.ring_down = kUsualRingDown;
   for (std::size_t i = 0; i < machine.time_gain_db.size(); ++i) settings.tgc_db[i] += machine.time_gain_db[i];
   for (const auto& [name, value] : machine.effects)
     if (const Effect* effect = find_effect(name)) effect->set(settings, value);

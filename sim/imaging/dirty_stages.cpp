@@ -21,14 +21,16 @@ Settings in_use(Settings settings) {
   if (settings.waves)
     forget(&S::reflection_sigma_mm, &S::transmission_sigma_mm);
   else
-    forget(&S::specular_exponent, &S::mirror_image, &S::steering_angles, &S::steering_deg);
+    forget(&S::specular_exponent, &S::mirror_image, &S::steering_angles, &S::steering_deg, &S::ring_down);
   if (settings.steering_angles == 1) forget(&S::steering_deg);
   if (!settings.absorption && !settings.focused_beam && !has_elevation_focus(settings) &&
-      settings.steering_angles == 1 && !is_filtered(settings))
+      settings.steering_angles == 1 && !is_filtered(settings) && settings.ring_down == 0)
     forget(&S::frequency_mhz);
   if (!settings.clutter) forget(&S::clutter_db);
   if (!settings.electronic_noise) forget(&S::noise_db);
-  if (!settings.electronic_noise && settings.reference_level == ReferenceLevel::frame_maximum) forget(&S::fixed_level);
+  if (!settings.electronic_noise && settings.ring_down == 0 &&
+      settings.reference_level == ReferenceLevel::frame_maximum)
+    forget(&S::fixed_level);
   return settings;
 }
 
@@ -94,8 +96,8 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
                   &S::face_reflection, &S::clutter, &S::two_way))
     dirty.first = Stage::beam;
   else if (differ(&S::reflection_sigma_mm, &S::transmission_sigma_mm, &S::blend, &S::clutter_db, &S::electronic_noise,
-                  &S::noise_db) ||
-           (to.electronic_noise && differ(&S::fixed_level)))
+                  &S::noise_db, &S::ring_down) ||
+           ((to.electronic_noise || to.ring_down > 0) && differ(&S::fixed_level)))
     dirty.first = Stage::scan_convert;
   else if (differ(&S::gain_db, &S::tgc_db, &S::reference_level, &S::fixed_level))
     dirty.first = Stage::fuse;

@@ -223,6 +223,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.noise_level = float(noise_level(settings));
   p.edge_enhancement = float(settings.edge_enhancement);
   p.speckle_reduction = float(settings.speckle_reduction);
+  p.ring_down = float(ring_down_at(settings, lines.r_min_mm));
+  p.ring_down_per_sample = float(dr * settings.frequency_mhz / (1.54 * kRingDownWavelengths) * kLn10);
   p.gain_db = float(settings.gain_db);
   p.dynamic_range_db = float(settings.dynamic_range_db);
   p.fixed_level = float(settings.fixed_level);

@@ -14,6 +14,7 @@ Settings with_usual_display(Settings settings) {
   settings.steering_angles = 3;
   settings.persistence = 0.3;
   settings.edge_enhancement = 0.5;
+  settings.ring_down = kUsualRingDown;
   return settings;
 }
 
@@ -29,7 +30,7 @@ Settings paper_settings(double depth_mm, int samples) {
   settings.edge_shadow = false;
   settings.face_reflection = 0;
   settings.clutter = settings.electronic_noise = false;
-  settings.mirror_image = 0;
+  settings.mirror_image = settings.ring_down = 0;
   settings.steering_angles = 1;
   settings.persistence = settings.edge_enhancement = settings.speckle_reduction = 0;
   settings.reference_level = ReferenceLevel::frame_maximum;

@@ -30,6 +30,8 @@ enum class GreyMap {
 inline constexpr double kMostTimeGainDb = 300;
 /// What a machine shows from black to white, until somebody turns the knob.
 inline constexpr double kUsualDynamicRangeDb = 60;
+/// A machine's Settings::ring_down: white at the face.
+inline constexpr double kUsualRingDown = 1;
 
 /// All settings of model S: how it turns a volume, a pose and a probe into a picture. Numbers in brackets are the
 /// equations of Kutter, Shams, Navab 2009. A field added here also needs its line in settings_file.cpp.
@@ -90,6 +92,8 @@ struct Settings {
   double clutter_db = -30;        ///< clutter relative to the scatterers' mean echo from its depth, -100 to 0
   bool electronic_noise = false;  ///< added to the echo before any gain, so that it shows where time gain is high
   double noise_db = -103;         ///< mean of the noise relative to fixed_level, -200 to 0
+  double ring_down = 0;  ///< with waves: the transducer's own echo at its face, in amplitudes of white, 0 (none) to 10,
+                         ///< see ring_down_at()
 
   // Display (7): like the controls of the same names on machines (Szabo, Diagnostic Ultrasound Imaging, 10)
   double gain_db = 0;              ///< -60 to 60
@@ -115,8 +119,8 @@ struct Settings {
 /// width behind it, or lines would meet only a part of it.
 double coupling_depth_mm(const Settings& settings);
 
-/// Returns the settings with what a machine's abdominal preset adds to a picture: three steering angles, mild
-/// persistence and edge enhancement (Szabo, Diagnostic Ultrasound Imaging, 10; the amounts are by eye).
+/// Returns the settings with what a machine and its abdominal preset add to a picture: ring-down, three steering
+/// angles, mild persistence and edge enhancement (Szabo, Diagnostic Ultrasound Imaging, 10; the amounts are by eye).
 Settings with_usual_display(Settings settings);
 
 /// Returns the paper's settings: no absorption, reflection length = sample distance, one-way transmission, frame's

@@ -50,6 +50,7 @@ const std::vector<Key<Settings>>& all_keys() {
       number("clutter_db", &S::clutter_db, -100, 0),
       flag("electronic_noise", &S::electronic_noise),
       number("noise_db", &S::noise_db, -200, 0),
+      number("ring_down", &S::ring_down, 0, 10),
       number("gain_db", &S::gain_db, -60, 60),
       numbers("tgc_db", &S::tgc_db, -kMostTimeGainDb, kMostTimeGainDb),
       number("dynamic_range_db", &S::dynamic_range_db, 1, 200),

@@ -109,4 +109,10 @@ double scatterer_rms(const ScanLines& lines, const Settings& settings) {
   return std::sqrt(most_bin_volume(lines, settings) / std::pow(scatterer_pitch_mm(lines, settings), 3)) * 2 / 3;
 }
 
+double ring_down_at(const Settings& settings, double r_mm) {
+  if (!settings.waves) return 0;
+  const double lambda = 1.54 / settings.frequency_mhz;
+  return settings.ring_down * std::sqrt(settings.fixed_level) * std::pow(10.0, -r_mm / (kRingDownWavelengths * lambda));
+}
+
 }  // namespace insonate

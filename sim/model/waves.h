@@ -24,7 +24,8 @@
 ///     n   = c sum_s a_s v(z_s) h(x_s)                                        over the scatterers s
 ///     e   = kMirrorShare sum_p g_p q_p I_p + n (sum_p g_p (kRoughShare q_p I_p + b^(1/2) A_p T_p^(1/2))^2)^(1/2)
 ///     f   = e and its mirror images (mirror_image.h), convolved with the pulse along the line and with the beam across
-///     the lines U   = |f|^2 + V, with noise as in noise.h; 0 up to kLeastEcho
+///     the lines
+///     U   = |f + d|^2 + V, with noise as in noise.h, d = ring_down_at(); 0 up to kLeastEcho
 ///
 /// a_s is the scatterer's complex amplitude, v the slice's window at its distance z_s from the imaging plane, h linear
 /// weights of the two lines and the two samples nearest to it. c makes the mean of |f|^2 equal to b T A^2 in uniform
@@ -85,6 +86,17 @@ inline constexpr int kMaxPulseRadius = 63;
 /// Returns the pulse along a line: an odd number of weights, symmetric, sum 1, cut off at three standard deviations.
 /// The linear weights h widen it by a variance of 1/6 sample^2, which its Gaussian is short of.
 std::vector<double> pulse_weights(const ScanLines& lines, const Settings& settings);
+
+/// Returns the amplitude d of the transducer's ring-down at a distance from the face. When a transducer begins to
+/// receive, it still rings from its own pulse. Each picture therefore begins with a bright band, whatever lies there,
+/// also in air. With white = fixed_level^(1/2) and the wavelength lambda,
+///
+///     d = ring_down white 10^(-r / (kRingDownWavelengths lambda))
+///
+/// 0 without waves. How long transducers ring is not published; kRingDownWavelengths is by eye, 20 dB in 8 periods, so
+/// that the band is 2 mm wide at 3.5 MHz.
+double ring_down_at(const Settings& settings, double r_mm);
+inline constexpr double kRingDownWavelengths = 4;
 
 /// Returns c at each sample.
 std::vector<double> scatterer_scale(const ScanLines& lines, const Settings& settings);

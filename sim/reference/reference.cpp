@@ -390,7 +390,7 @@ Stages<double> look_reference(const MediumField& field, const TissueTable& table
                            wall_clutter.at(position->line, sample);
       stages.inside.at(x, y) = 1;
       if (settings.waves) {
-        std::complex<double> wave(here(stages.wave_re), here(stages.wave_im));
+        std::complex<double> wave(here(stages.wave_re) + ring_down_at(settings, position->r_mm), here(stages.wave_im));
         if (noise > 0)
           wave += std::sqrt(noise) *
                   noise_of_pixel(waves_of_receiver, geometry, straight, (x + shift.x) % w, (y + shift.y) % h);

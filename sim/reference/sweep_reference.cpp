@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/model/noise.h"
+#include "sim/model/waves.h"
 #include "sim/reference/clutter_reference.h"
 #include "sim/reference/display_reference.h"
 
@@ -49,8 +50,10 @@ void append_fused(SweepValues& values, const Stages<double>& stages, const Image
       const std::complex<double> of_receiver = noise.at(noise_line(line, plane, values.lines), k);
       double fused = stages.repeated.at(line, k);
       if (settings.waves)
-        fused += std::norm(std::complex<double>(stages.wave_re.at(line, k), stages.wave_im.at(line, k)) +
-                           std::sqrt(power) * of_receiver);
+        fused += std::norm(
+            std::complex<double>(stages.wave_re.at(line, k) + ring_down_at(settings, (k + 0.5) * lines.dr_mm()),
+                                 stages.wave_im.at(line, k)) +
+            std::sqrt(power) * of_receiver);
       else
         fused += stages.reflection_beam.at(line, k) * stages.speckle.at(line, k) + scattered_at(line, k) +
                  power * of_receiver.real();

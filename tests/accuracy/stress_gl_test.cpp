@@ -115,6 +115,7 @@ TEST_CASE("settings at the ends of their ranges") {
       {"an echo of what is met squarely alone", set(&S::specular_exponent, 64.0)},
       {"an echo whatever the angle", set(&S::specular_exponent, 1.0)},
       {"gas that mirrors all", set(&S::mirror_image, 1.0)},
+      {"a transducer that rings ten times as loud as white", set(&S::ring_down, 10.0)},
       {"reflections smoothed by 1000 mm", set(&S::reflection_sigma_mm, 1000.0)},
       {"transmission smoothed by 1000 mm", set(&S::transmission_sigma_mm, 1000.0)},
       {"shadows at every edge", set(&S::edge_shadow, true)},

@@ -207,6 +207,7 @@ inline Scene random_scene_of_waves(std::uint32_t seed) {
   scene.settings.waves = true;
   scene.settings.specular_exponent = draw.within(1, 64);
   scene.settings.mirror_image = draw.chance(0.5) ? 0 : draw.within(0, 1);
+  scene.settings.ring_down = draw.chance(0.5) ? 0 : draw.within(0, 10);
   return scene;
 }
 

@@ -60,6 +60,7 @@ TEST_CASE("compounded pictures agree with the reference: every stage of the stra
   Settings settings = small_compounded(linear ? 7.5 : 3.5, depth_mm);
   settings.noise_db = -80;  // seen at the end of the lines, and another in each look
   settings.steering_angles = linear ? 5 : 3;
+  settings.ring_down = kUsualRingDown;
   settings.elevation_focus_mm = linear ? 30 : 0;
   const Pose pose = test::on_the_skin(0, linear ? 3 : 9, 12);
   const AcousticVolume body = test::test_body();
@@ -125,6 +126,8 @@ TEST_CASE("a compounded picture after a change is the picture that a new simulat
       [](Settings& s) { s.gain_db = 6; },
       [](Settings& s) { s.f_number = 5; },
       [](Settings& s) { s.noise_db = -70; },
+      [](Settings& s) { s.ring_down = 1; },
+      [](Settings& s) { s.fixed_level *= 1.1; },
       [](Settings& s) { s.face_reflection = 0.3; },
       [](Settings& s) { s.frequency_mhz = 5; },
       [](Settings& s) { s.reflection_length_mm = 1; },

@@ -138,7 +138,9 @@ TEST_CASE("each effect beyond the paper is off in the paper's own mode and on in
     CHECK(settings.persistence == 0);
     CHECK(settings.edge_enhancement == 0);
     CHECK(settings.speckle_reduction == 0);
+    CHECK(settings.ring_down == 0);
   }
+  CHECK(with_usual_display(trainer).ring_down == kUsualRingDown);
 }
 
 TEST_CASE("what settings hold reads back as it was") {

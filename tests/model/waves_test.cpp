@@ -99,3 +99,14 @@ TEST_CASE("the scatterers' cells grow where the slice would hold too many or a s
   const double coarse = scatterer_pitch_mm(linear_lines(1), settings);
   CHECK(coarse > 0.5);
 }
+
+TEST_CASE("a transducer rings as loud as white at its face, and 20 dB less every four wavelengths") {
+  Settings settings = trainer_settings(3.5, 160);
+  CHECK(ring_down_at(settings, 0) == 0);
+  settings.ring_down = 1;
+  CHECK(std::pow(ring_down_at(settings, 0), 2) == Approx(settings.fixed_level));
+  CHECK(ring_down_at(settings, 4 * 1.54 / 3.5) == Approx(0.1 * ring_down_at(settings, 0)));
+  CHECK(ring_down_at(settings, 8 * 1.54 / 3.5) == Approx(0.01 * ring_down_at(settings, 0)));
+  settings.waves = false;
+  CHECK(ring_down_at(settings, 0) == 0);
+}

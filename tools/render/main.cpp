@@ -212,7 +212,8 @@ int main(int argc, char** argv) {
           "sim/registration/wein_settings.h")
       ->type_name("FILE")
       ->default_str(
-          "those of the trainer without its compounding, persistence and edge enhancement, for model W its own");
+          "those of the trainer without its compounding, persistence, edge enhancement and ring-down, for model W its "
+          "own");
   CLI::Option* quality =
       arguments
           .add_option("--quality", quality_name,

@@ -158,6 +158,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
                      {"pulse_weights", pulse_weights(lines, scene.settings)},
                      {"scatterer_scale", scatterer_scale(lines, scene.settings)},
                      {"slice_half", kSliceHalf},
+                     {"ring_down_at_face", ring_down_at(scene.settings, 0)},
+                     {"ring_down_wavelengths", kRingDownWavelengths},
                      {"mirror_share", kMirrorShare},
                      {"rough_share", kRoughShare}};
   else

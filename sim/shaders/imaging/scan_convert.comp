@@ -7,7 +7,7 @@
 // not smoothed. The position of each pixel among the lines is computed once per probe and depth, so this stage does not
 // depend on the probe.
 //
-// With WAVES, f is interpolated and U = |f + noise|^2 + V (sim/model/waves.h): X = U, and nothing is smoothed.
+// With WAVES, f is interpolated and U = |f + d + noise|^2 + V (sim/model/waves.h): X = U, and nothing is smoothed.
 //
 // Reads the echoes, the pixels' positions, the noise and the mean echo. Writes X and S, and R and T where smoothed.
 // Dispatch: one work group of 64 x 1 per block of the fan (shared/fan_blocks.glsl). An invocation serves four pixels of
@@ -64,6 +64,7 @@ void convert(ivec2 pixel) {
   ivec2 shifted = (pixel + ivec2(noise_shift_x, noise_shift_y)) % ivec2(width, height);
   value.xy += sqrt(noise_at(place.y, value.z)) * texelFetch(noise, index_of(shifted)).xy;
 #endif
+  value.x += ring_down * exp(-ring_down_per_sample * (place.y + 0.5));
   float echo = dot(value.xy, value.xy) + value.w;
   echo = inside && echo > kLeastEcho ? echo : 0.0;
 #if LOOKS == 1

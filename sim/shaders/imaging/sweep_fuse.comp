@@ -1,6 +1,6 @@
 // Fusion of a sweep, (6) of Kutter, Shams, Navab 2009, on its lines:
 //
-//     U = (R + b T) S + V + noise,  with WAVES U = |f + noise|^2 + V (sim/model/waves.h)
+//     U = (R + b T) S + V + noise,  with WAVES U = |f + d + noise|^2 + V (sim/model/waves.h)
 //
 // A volume is not smoothed as a picture is, so fusion need not follow scan conversion.
 //
@@ -36,6 +36,7 @@ void main() {
   wave += sqrt(mean) * of_receiver;
 #endif
   if (WAVES == 1) {
+    wave.x += ring_down * exp(-ring_down_per_sample * (float(k) + 0.5));
     echo = dot(wave, wave) + value.w;
     if (echo <= kLeastEcho) echo = 0.0;
   }

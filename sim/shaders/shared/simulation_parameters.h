@@ -64,6 +64,10 @@ layout(std140, binding = 0) uniform SimulationParameters {
   float mirror_amplitude;    // of what gas mirrors
   float face_amplitude;      // of mirror images: the root of the settings' face_reflection
 
+  float ring_down;             // d of sim/model/waves.h where the first sample's part of a line begins; 0 for none
+  float ring_down_per_sample;  // its loss, in ln
+  int unused_1, unused_2;
+
   vec4 tgc_db[2];  // time gain at 8 depths from the face to full depth
 #ifdef __cplusplus
 };
