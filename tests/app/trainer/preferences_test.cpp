@@ -82,6 +82,10 @@ TEST_CASE("preferences are kept in the user's folder of settings") {
   setenv("XDG_CONFIG_HOME", "/some/where", 1);
   CHECK(preferences_file() == "/some/where/insonate/settings.toml");
   unsetenv("XDG_CONFIG_HOME");
-  CHECK(preferences_file() == std::filesystem::path(std::getenv("HOME")) / ".config/insonate/settings.toml");
+  const std::string home = std::getenv("HOME");
+  CHECK(preferences_file() == std::filesystem::path(home) / ".config/insonate/settings.toml");
+  unsetenv("HOME");
+  CHECK_THROWS_WITH(preferences_file(), Catch::Contains("neither XDG_CONFIG_HOME nor HOME says where to keep"));
+  setenv("HOME", home.c_str(), 1);
   if (set) setenv("XDG_CONFIG_HOME", before.c_str(), 1);
 }

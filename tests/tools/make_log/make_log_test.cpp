@@ -1,6 +1,7 @@
 // Plans of logs that the case or the picture does not allow.
 #include <catch2/catch.hpp>
 
+#include "tests/core/temporary_folder.h"
 #include "tests/scenarios/tiny_case.h"
 #include "tools/make_log/act.h"
 #include "tools/make_log/hand.h"
@@ -59,4 +60,12 @@ TEST_CASE("what a plan's hand is to do with what the picture does not have is re
                       Catch::StartsWith("Ball in a block: do = \"" + doing + "\": " + says + "; correct the plan"));
   }
   CHECK(made_of("label_at ball", subject, Pose{}).size() == 1);
+}
+
+TEST_CASE("a plan whose hand goes nowhere is refused") {
+  const TemporaryFolder folder;
+  const std::string head = "scenario = \"exam.toml\"\nseed = 1\n", move = "[[move]]\nview = \"ball\"\n";
+  CHECK(read_log_plan(folder.put("plan.toml", head + move + move)).moves.size() == 2);
+  CHECK_THROWS_WITH(read_log_plan(folder.put("plan.toml", head + move)),
+                    Catch::Contains("there are fewer than two moves; add a [[move]] for where the log begins"));
 }
