@@ -87,8 +87,9 @@ std::string disagreement_of_waves(const Scene& scene, const Stages<double>& expe
         differs("V", &S::repeated, got.repeated, of_repeated)})
     if (!fault.empty()) return fault;
 
-  // U = |f + noise|^2 + V: an error df makes one of 2 |f + noise| df + df^2. The place of a pixel among the samples is
-  // known in single precision, so f may be wrong there by a share of its neighbours.
+  // U = |f + d + noise|^2 + V: an error df makes one of 2 |f + d + noise| df + df^2. The place of a pixel among the
+  // samples is known in single precision, so f may be wrong there by a share of its neighbours. d is smooth: its error
+  // by the place is far below the 1e-3 of U.
   const double place = 2.4e-7 * std::max(rounding.width, rounding.height);
   const ImageGeometry picture =
       image_geometry(scene.probe, scene.depth_mm, expected.fused.width, expected.fused.height);

@@ -71,6 +71,23 @@ TEST_CASE("what other settings leave unused reaches nothing, until they use it")
   CHECK(f.after([&] { f.settings.slice_thickness_mm = 4; }) == "01234");
 }
 
+TEST_CASE("ring-down needs waves, and makes the frequency and the fixed level count") {
+  Fixture f;
+  CHECK(f.after([&] { f.settings.ring_down = 1; }) == "");
+  // Nothing else that depends on the two, and the frame's brightest pixel is white.
+  f.after([&] {
+    f.settings.waves = true;
+    f.settings.absorption = f.settings.focused_beam = f.settings.electronic_noise = false;
+    f.settings.ring_down = 0;
+    f.settings.reference_level = ReferenceLevel::frame_maximum;
+  });
+  CHECK(f.after([&] { f.settings.fixed_level *= 2; }) == "");
+  CHECK(f.after([&] { f.settings.frequency_mhz = 4; }) == "");
+  CHECK(f.after([&] { f.settings.ring_down = 1; }) == "245");
+  CHECK(f.after([&] { f.settings.fixed_level *= 2; }) == "245");
+  CHECK(f.after([&] { f.settings.frequency_mhz = 5; }) == "01245");
+}
+
 TEST_CASE("each stage reports how often it ran and how much it evaluated of what there is") {
   Fixture f;
   f.settings.image_width = 400;

@@ -159,12 +159,20 @@ public:
       stages = simulator.read_stages();
     });
     py::dict all;
-    all["intensity"] = array_of(std::move(stages.intensity));
-    all["reflection"] = array_of(std::move(stages.reflection));
-    all["reflection_beam"] = array_of(std::move(stages.reflection_beam));
-    all["transmission"] = array_of(std::move(stages.transmission));
-    all["repeated"] = array_of(std::move(stages.repeated));
-    all["speckle"] = array_of(std::move(stages.speckle));
+    // What the settings leave out, such as the waves without them, is empty.
+    for (const auto& [name, of_lines] :
+         std::initializer_list<std::pair<const char*, Image<float>*>>{{"intensity", &stages.intensity},
+                                                                      {"reflection", &stages.reflection},
+                                                                      {"reflection_beam", &stages.reflection_beam},
+                                                                      {"transmission", &stages.transmission},
+                                                                      {"repeated", &stages.repeated},
+                                                                      {"speckle", &stages.speckle},
+                                                                      {"scattered", &stages.scattered},
+                                                                      {"echo_re", &stages.echo_re},
+                                                                      {"echo_im", &stages.echo_im},
+                                                                      {"wave_re", &stages.wave_re},
+                                                                      {"wave_im", &stages.wave_im}})
+      if (!of_lines->pixels.empty()) all[name] = array_of(std::move(*of_lines));
     all["fused"] = array_of(mirrored(stages.fused));
     all["inside"] = array_of(mirrored(stages.inside));
     all["image"] = array_of(mirrored(stages.grey));

@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "sim/core/grid.h"
 #include "sim/core/input_error.h"
@@ -47,12 +49,42 @@ PlaneBox box_of(const Grid& grid, const glm::dvec3& beam) {
   return box;
 }
 
-std::string in_words(const FoundFan& fan, const SweptPlanes& planes, double face_y) {
-  std::string text = probe_description(fan);
-  if (planes.tilted)
-    text += formatted("; planes tilted over %.1f degrees about a line ", glm::degrees(planes.last - planes.first)) +
-            formatted("%.1f mm behind the face", face_y);
-  return text;
+/// Returns the side of the pixels in which the fan is looked for: planes that are not tilted need not be as coarse as
+/// the volume is across them.
+double pixel_mm(const Grid& grid, const PlaneBox& box, bool tilted) {
+  double mm = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double across = std::abs(glm::dot(grid.direction[axis], box.axes[2]));
+    if (tilted || across < 0.5) mm = std::max(mm, grid.spacing[axis]);
+  }
+  return mm;
+}
+
+/// The sweep that a volume shows.
+struct FoundSweep {
+  SweptPlanes planes;
+  FoundFan fan;
+  glm::dvec2 face;  ///< its middle, in each plane, mm
+};
+
+/// Returns nothing where there is no fan. The rectangle of a linear probe in parallel planes says no more than the box.
+std::optional<FoundSweep> find_sweep(const Grid& grid, const PlaneBox& box,
+                                     const std::function<bool(const glm::ivec3&)>& known) {
+  for (const SweptPlanes& planes : {find_swept_planes(grid, box, known), SweptPlanes{box.low.z, box.high.z}}) {
+    const double mm = pixel_mm(grid, box, planes.tilted);
+    const FanSearch search = find_fan(known_in_planes(grid, box, planes, mm, known), glm::dvec2(mm));
+    if (search.fan && (planes.tilted || search.fan->probe.kind != ProbeKind::linear))
+      return FoundSweep{planes, *search.fan, glm::dvec2(box.low.x, planes.depths(box).x) + mm * search.fan->face_pixel};
+  }
+  return std::nullopt;
+}
+
+std::string in_words(const FoundSweep& found) {
+  const SweptPlanes& planes = found.planes;
+  if (!planes.tilted) return probe_description(found.fan) + "; parallel planes";
+  return probe_description(found.fan) +
+         formatted("; planes tilted over %.1f degrees about a line ", glm::degrees(planes.last - planes.first)) +
+         formatted("%.1f mm behind the face", found.face.y);
 }
 
 // Returns the least value that is known. A volume with numbers below 0 marks with them what is not, and black is known.
@@ -96,25 +128,24 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
                        "crop it, or see whether --beam is right");
   };
   const std::int16_t least = least_known(volume);
-  const auto known_at = [&](const glm::ivec3& index) { return volume.at(index) >= least; };
-  SweptPlanes planes = find_swept_planes(volume.grid, box, known_at);
-  const double mm = std::max({volume.grid.spacing.x, volume.grid.spacing.y, volume.grid.spacing.z});
-  const FanSearch search = find_fan(known_in_planes(volume.grid, box, planes, mm, known_at), glm::dvec2(mm));
+  const auto found = find_sweep(volume.grid, box, [&](const glm::ivec3& index) { return volume.at(index) >= least; });
   ReadSweep read;
   TrackedSweep& sweep = read.sweep;
-  glm::dvec2 face((box.low.x + box.high.x) / 2, box.low.y);  // its middle, in each plane
-  if (search.fan && (planes.tilted || search.fan->probe.kind != ProbeKind::linear)) {
-    sweep.probe = search.fan->probe;
-    sweep.depth_mm = search.fan->depth_mm;
-    face = glm::dvec2(box.low.x, planes.depths(box).x) + mm * search.fan->face_pixel;
-    read.found_in_volume = in_words(*search.fan, planes, face.y);
+  SweptPlanes planes{box.low.z, box.high.z};
+  glm::dvec2 face((box.low.x + box.high.x) / 2, box.low.y);
+  if (found) {
+    planes = found->planes;
+    face = found->face;
+    sweep.probe = found->fan.probe;
+    sweep.depth_mm = found->fan.depth_mm;
+    read.found_in_volume = in_words(*found);
   } else {
     check("wide across the beam", size.x, 5, 200);
     check("deep along the beam", size.y, 10, 400);
-    planes = {box.low.z, box.high.z};
     sweep.probe = *find_probe("linear");
     sweep.probe.width_mm = size.x;
     sweep.probe.depth_mm = sweep.depth_mm = size.y;
+    read.found_in_volume = formatted("no fan; it is read as parallel planes of a linear probe %.0f mm wide", size.x);
   }
   sweep.probe.lines = input.width;
   const ImageGeometry geometry = image_geometry(sweep.probe, sweep.depth_mm, input.width, input.height);

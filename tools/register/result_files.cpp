@@ -177,6 +177,7 @@ std::string registration_json(const RegistrationReport& report) {
   json["frames_left_out"] = report.input.left_out;
   json["slices"] = report.input.sweep.images.size();
   json["probe"] = probe_json(report.input.sweep, report.input.fan);
+  if (!report.input.found_in_volume.empty()) json["probe"]["found_in_volume"] = report.input.found_in_volume;
   json["coordinates"] = "LPS, mm; matrices by rows";
   json["ct_from_sweep"] = rows_of(found.ct_from_sweep);
   json["sweep_from_ct"] = rows_of(glm::inverse(found.ct_from_sweep));

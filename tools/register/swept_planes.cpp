@@ -11,11 +11,13 @@
 namespace insonate {
 namespace {
 
-constexpr double kLeastOpening = glm::radians(3.0);
-constexpr double kTop = 0.1,
-                 kDeep = 0.95;  // of the way from the wedge's top to its widest row: the sides are fitted there
+constexpr double kLeastOpening = glm::radians(3.0), kMostSlope = 3.7;  // of a side: 75 degrees
+// Of the way from the wedge's top to its widest row: the sides are fitted there.
+constexpr double kTop = 0.1, kDeep = 0.95;
+constexpr double kLeastShare = 1.0 / 3;  // of the rows that lie above the widest; sides that are shorter say little
 constexpr int kLeastRows = 8;
-constexpr double kMost_mm = 3;  // that a side may lie off its line, root mean square
+constexpr double kMostOff = 1;  // voxels that a side may lie off its line, root mean square: sides are steps of voxels
+constexpr int kFewVoxels = 3;   // that may be known beside the wedge, such as specks
 
 /// z = at + slope y.
 struct Side {
@@ -23,7 +25,7 @@ struct Side {
 };
 
 /// Returns the line through points (y, z) by least squares, nothing where they do not lie on one.
-std::optional<Side> side_of(const std::vector<glm::dvec2>& points) {
+std::optional<Side> side_of(const std::vector<glm::dvec2>& points, double voxel_mm) {
   if (int(points.size()) < kLeastRows) return std::nullopt;
   glm::dvec2 mean(0.0);
   for (const glm::dvec2& point : points) mean += point / double(points.size());
@@ -35,7 +37,8 @@ std::optional<Side> side_of(const std::vector<glm::dvec2>& points) {
   const Side side{mean.y - yz / yy * mean.x, yz / yy};
   double squares = 0;
   for (const glm::dvec2& point : points) squares += std::pow(point.y - side.at - side.slope * point.x, 2);
-  if (!(std::sqrt(squares / double(points.size())) < kMost_mm)) return std::nullopt;
+  if (!(std::sqrt(squares / double(points.size())) < kMostOff * voxel_mm) || std::abs(side.slope) > kMostSlope)
+    return std::nullopt;
   return side;
 }
 
@@ -58,32 +61,40 @@ glm::dvec2 SweptPlanes::depths(const PlaneBox& box) const {
 SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
                               const std::function<bool(const glm::ivec3&)>& known) {
   SweptPlanes planes{box.low.z, box.high.z};
-  // Outermost known voxels per row of the wedge.
-  const double mm = 1.5 * std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z});
-  const int rows = std::max(1, int((box.high.y - box.low.y) / mm) + 1);
-  std::vector<glm::dvec2> extent(std::size_t(rows), glm::dvec2(1e300, -1e300));
+  // Known voxels per row of the wedge and per place across it.
+  const double voxel_mm = std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z}), row_mm = 1.5 * voxel_mm;
+  Image<int> counts(int((box.high.z - box.low.z) / voxel_mm) + 2, int((box.high.y - box.low.y) / row_mm) + 1);
   for (int z = 0; z < grid.size.z; ++z)
     for (int y = 0; y < grid.size.y; ++y)
       for (int x = 0; x < grid.size.x; ++x) {
         const glm::ivec3 index(x, y, z);
         if (!known(index)) continue;
-        const glm::dvec3 at = glm::transpose(box.axes) * grid.patient_from_index(glm::dvec3(index));
-        glm::dvec2& row = extent[std::size_t(std::clamp(int((at.y - box.low.y) / mm), 0, rows - 1))];
-        row = {std::min(row.x, at.z), std::max(row.y, at.z)};
+        const glm::dvec3 at = glm::transpose(box.axes) * grid.patient_from_index(glm::dvec3(index)) - box.low;
+        ++counts.at(std::clamp(int(std::lround(at.z / voxel_mm)), 0, counts.width - 1),
+                    std::clamp(int(at.y / row_mm), 0, counts.height - 1));
       }
-  const auto filled = [](const glm::dvec2& row) { return row.x <= row.y; };
-  const auto top = std::ranges::find_if(extent, filled);
-  const auto widest = std::ranges::max_element(extent, {}, [](const glm::dvec2& row) { return row.y - row.x; });
-  if (top == extent.end() || widest <= top) return planes;
-  std::vector<glm::dvec2> low, high;
-  for (auto row = top + std::ptrdiff_t(kTop * double(widest - top));
-       row < top + std::ptrdiff_t(kDeep * double(widest - top)); ++row) {
-    if (!filled(*row)) continue;
-    const double y = box.low.y + (double(row - extent.begin()) + 0.5) * mm;
-    low.emplace_back(y, row->x);
-    high.emplace_back(y, row->y);
+  std::vector<glm::ivec2> extents;  // of each row: its first and last place; first > last in an empty one
+  for (int row = 0; row < counts.height; ++row) {
+    glm::ivec2 extent(counts.width, -1);
+    for (int place = 0; place < counts.width; ++place)
+      if (counts.at(place, row) > kFewVoxels) extent = {std::min(extent.x, place), place};
+    extents.push_back(extent);
   }
-  const std::optional<Side> lower = side_of(low), upper = side_of(high);
+  const auto filled = [](const glm::ivec2& extent) { return extent.x <= extent.y; };
+  const auto top = std::ranges::find_if(extents, filled);
+  const auto widest =
+      std::ranges::max_element(extents, {}, [](const glm::ivec2& extent) { return extent.y - extent.x; });
+  if (top == extents.end() || double(widest - top) < kLeastShare * double(std::ranges::count_if(extents, filled)))
+    return planes;
+  std::vector<glm::dvec2> low, high;
+  for (auto extent = top + std::ptrdiff_t(kTop * double(widest - top));
+       extent < top + std::ptrdiff_t(kDeep * double(widest - top)); ++extent) {
+    if (!filled(*extent)) continue;
+    const double y = box.low.y + (double(extent - extents.begin()) + 0.5) * row_mm;
+    low.emplace_back(y, box.low.z + extent->x * voxel_mm);
+    high.emplace_back(y, box.low.z + extent->y * voxel_mm);
+  }
+  const std::optional<Side> lower = side_of(low, voxel_mm), upper = side_of(high, voxel_mm);
   if (!lower || !upper) return planes;
   const double from = std::atan(lower->slope), to = std::atan(upper->slope);
   if (to - from < kLeastOpening) return planes;

@@ -35,8 +35,9 @@ struct SweptPlanes {
 };
 
 /// Finds how the planes lie from the voxels that are known. Seen along the rows, tilted planes fill a wedge, whose two
-/// straight sides are the outermost planes; they are fitted from near the top down to where the wedge is widest. Sides
-/// that open by less than 3 degrees count as parallel, and so does a volume without such sides.
+/// straight sides are the outermost planes; they are fitted from near the top down to where the wedge is widest. Planes
+/// are parallel where the sides open by less than 3 degrees, are not straight to a voxel, as those of planes that
+/// cross, or are shorter than a third of the wedge.
 /// @param known  whether a voxel is known, by its index
 SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
                               const std::function<bool(const glm::ivec3&)>& known);

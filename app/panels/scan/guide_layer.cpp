@@ -10,6 +10,7 @@ namespace insonate::ui {
 namespace {
 
 constexpr float kMargin = 8, kRow = 22, kBetween = 16, kKeyGap = 8;
+
 float key_width(const Theme& theme, const std::string& key) {
   return text_width(theme.small_text, key) + theme.px(14);
 }
@@ -42,7 +43,7 @@ float guide_strip_height(const Theme& theme) {
   return theme.px(2 * kMargin + 2 * kRow);
 }
 
-void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
+std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
   fill(strip, colour::kPanel, theme.px(4));
   if (guiding.there) outline(strip, colour::kAccent, theme.px(4));
   Rect rest = strip.inset(theme.px(16), theme.px(kMargin));
@@ -53,23 +54,30 @@ void draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guid
   draw_text(head, theme.text, colour::kMuted,
             "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
                 "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
-  if (guiding.there) return draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
+  if (guiding.there) {
+    draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
+    return 0;
+  }
   const auto draw = [&](ImFont* font, ImU32 ink, const std::string& text) {
     draw_text(rest.take_left(std::min(rest.w, text_width(font, text) + 1)), font, ink, text);
   };
   for (std::size_t i = 0; i < guiding.advice.size(); ++i) {
     const float key = i < guiding.keys.size() ? theme.px(kKeyGap) + key_width(theme, guiding.keys[i]) : 0;
     const bool is_last = i + 1 == guiding.advice.size();
-    const float needed = text_width(theme.text, "then " + guiding.advice[i]) + key +
+    const float needed = text_width(theme.text, "then " + guiding.advice[i]) + 2 + key +
                          (is_last ? 0 : theme.px(kBetween) + text_width(theme.text, "\u2026"));
     // One comes after the other, so what has no room comes later.
-    if (i > 0 && needed > rest.w) return draw(theme.text, colour::kMuted, "\u2026");
+    if (i > 0 && needed > rest.w) {
+      draw(theme.text, colour::kMuted, "\u2026");
+      return i;
+    }
     const ImU32 ink = i == 0 ? colour::kText : colour::kMuted;
     if (i > 0) draw(theme.text, ink, "then ");
     draw(i == 0 ? theme.strong : theme.text, ink, guiding.advice[i]);
     if (i < guiding.keys.size()) draw_key(theme, rest, ink, guiding.keys[i]);
     rest.take_left(theme.px(kBetween));
   }
+  return guiding.advice.size();
 }
 
 }  // namespace insonate::ui

@@ -64,7 +64,7 @@ void convert(ivec2 pixel) {
   ivec2 shifted = (pixel + ivec2(noise_shift_x, noise_shift_y)) % ivec2(width, height);
   value.xy += sqrt(noise_at(place.y, value.z)) * texelFetch(noise, index_of(shifted)).xy;
 #endif
-  value.x += ring_down * exp(-ring_down_per_sample * (place.y + 0.5));
+  if (ring_down > 0.0) value.x += ring_down * exp(-ring_down_per_sample * (place.y + 0.5));
   float echo = dot(value.xy, value.xy) + value.w;
   echo = inside && echo > kLeastEcho ? echo : 0.0;
 #if LOOKS == 1

@@ -36,7 +36,7 @@ void main() {
   wave += sqrt(mean) * of_receiver;
 #endif
   if (WAVES == 1) {
-    wave.x += ring_down * exp(-ring_down_per_sample * (float(k) + 0.5));
+    if (ring_down > 0.0) wave.x += ring_down * exp(-ring_down_per_sample * (float(k) + 0.5));
     echo = dot(wave, wave) + value.w;
     if (echo <= kLeastEcho) echo = 0.0;
   }

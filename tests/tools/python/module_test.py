@@ -110,6 +110,13 @@ class Pictures(unittest.TestCase):
         self.assertEqual(stages["intensity"].shape, (128, self.simulator.probe.lines))
         self.assertEqual(stages["fused"].shape, (80, 96))
         self.assertTrue((stages["intensity"][0] > stages["intensity"][-1]).all())
+        always, lines = {"fused", "inside", "image"}, {"intensity", "repeated"}
+        of_waves = lines | {"scattered", "echo_re", "echo_im", "wave_re", "wave_im"}
+        self.assertEqual(set(stages), always | of_waves)
+        self.assertEqual({stages[name].shape for name in of_waves}, {stages["intensity"].shape})
+        self.simulator.set(waves=False)
+        of_sums = lines | {"reflection", "reflection_beam", "transmission", "speckle"}
+        self.assertEqual(set(self.simulator.stages()), always | of_sums)
 
     def test_settings_change_the_picture_or_are_refused_as_a_whole(self):
         before = self.simulator.image()

@@ -202,7 +202,10 @@ TEST_CASE("a volume of a sweep is registered by the probe and the planes that it
   REQUIRE((outcome.code == 0 || outcome.code == 3));
   const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
   CHECK(outcome.output.find("Found in the volume: curvilinear, radius ") == 0);
+  // The sweep slides along z by 16 mm and tilts by 24 degrees.
+  CHECK(outcome.output.find("; planes tilted over 2") != std::string::npos);
   CHECK(json["probe"]["kind"] == "curvilinear");
+  CHECK(json["probe"]["found_in_volume"].get<std::string>().find("; planes tilted over 2") != std::string::npos);
   CHECK(json["probe"]["radius_mm"].get<double>() == Approx(60).margin(3));  // from voxels of 1 mm
   CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepthMm).margin(2));
   // The shift of the recording, within the size of the CT's voxels.

@@ -1,7 +1,9 @@
 #include "tools/register/swept_planes.h"
 
 #include <catch2/catch.hpp>
-#include <glm/gtc/constants.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
@@ -15,11 +17,26 @@ namespace {
 constexpr double kVoxel_mm = 1, kRadius_mm = 60, kDepth_mm = 100, kHalfView = glm::radians(30.0);
 const glm::dvec3 kApex(10, -90, 5);  // of the fans, in the frame of the box's axes
 
-/// A volume of 200 mm along each axis, whose axes are the box's.
+/// A volume of some 200 mm along each axis of the box.
 struct Volume200 {
   Grid grid{glm::ivec3(200), glm::dvec3(kVoxel_mm), glm::dvec3(-100), glm::dmat3(1)};
   PlaneBox box{glm::dmat3(1), glm::dvec3(-100), glm::dvec3(99)};
+
+  glm::dvec3 in_box(const glm::ivec3& index) const {
+    return glm::transpose(box.axes) * grid.patient_from_index(glm::dvec3(index));
+  }
 };
+
+/// The same, turned, with the planes' rows along the volume's third axis, and finer along that.
+Volume200 turned_volume() {
+  Volume200 v;
+  v.box.axes = glm::dmat3(glm::rotate(glm::dmat4(1), 0.7, glm::normalize(glm::dvec3(1, 2, -1))));
+  v.grid.direction = glm::dmat3(v.box.axes[1], v.box.axes[2], v.box.axes[0]);
+  v.grid.spacing = {1, 1, 0.5};
+  v.grid.size = {200, 200, 400};
+  v.grid.origin = v.box.axes * glm::dvec3(-100);
+  return v;
+}
 
 /// Returns whether a point lies in a fan whose lines meet at `apex`, seen along z.
 bool in_fan(const glm::dvec2& from_apex) {
@@ -30,12 +47,14 @@ bool in_fan(const glm::dvec2& from_apex) {
 }  // namespace
 
 TEST_CASE("planes that were tilted about a line are found from the wedge that they fill") {
-  const Volume200 v;
+  const bool turned = GENERATE(false, true);
+  const Volume200 v = turned ? turned_volume() : Volume200();
   // The line lies 30 mm behind the middle of the face. The planes are tilted from -12 to 25 degrees.
   const double from = glm::radians(-12.0), to = glm::radians(25.0), behind = 30;
   const double line_y = kApex.y + kRadius_mm - behind;
   const auto known = [&](const glm::ivec3& index) {
-    const glm::dvec3 at = v.grid.patient_from_index(glm::dvec3(index));
+    if (index.x == 1 && index.z == 1 && index.y % 10 == 0) return true;  // specks beside the wedge
+    const glm::dvec3 at = v.in_box(index);
     const double y = at.y - line_y, z = at.z - kApex.z, angle = std::atan2(z, y);
     return angle >= from && angle <= to && in_fan({at.x - kApex.x, std::hypot(y, z) + kRadius_mm - behind});
   };
@@ -57,11 +76,11 @@ TEST_CASE("planes that were tilted about a line are found from the wedge that th
   const glm::dvec2 face = glm::dvec2(v.box.low.x, planes.depths(v.box).x) + search.fan->face_pixel * kVoxel_mm;
   const glm::dvec3 at = planes.plane(v.box, 0.5).point(glm::dvec3(face, 0));
   const double middle = (from + to) / 2;
-  CHECK(glm::length(at - glm::dvec3(kApex.x, line_y + behind * std::cos(middle), kApex.z + behind * std::sin(middle))) <
-        2);
+  const glm::dvec3 expected(kApex.x, line_y + behind * std::cos(middle), kApex.z + behind * std::sin(middle));
+  CHECK(glm::length(glm::transpose(v.box.axes) * at - expected) < 2);
 }
 
-TEST_CASE("planes that slid beside each other are parallel, and so are those of a volume without straight sides") {
+TEST_CASE("planes that slid beside each other or cross are parallel, and so are those without straight sides") {
   const Volume200 v;
   const auto slid = [&](const glm::ivec3& index) {
     const glm::dvec3 at = v.grid.patient_from_index(glm::dvec3(index));
@@ -72,6 +91,15 @@ TEST_CASE("planes that slid beside each other are parallel, and so are those of 
   CHECK(parallel.plane(v.box, 0).translation == glm::dvec3(0, 0, v.box.low.z));
   CHECK(parallel.plane(v.box, 1).translation == glm::dvec3(0, 0, v.box.high.z));
   CHECK(parallel.plane(v.box, 0.3).rotation == v.box.axes);
+
+  // From -12 to 12 mm, tilted against it from 16 to -16 degrees: the planes cross 42 mm below the face.
+  const auto crossing = [&](const glm::ivec3& index) {
+    const glm::dvec3 at = v.grid.patient_from_index(glm::dvec3(index));
+    const double depth = at.y - kApex.y - kRadius_mm;
+    return std::abs(at.z) < std::abs(12 - std::tan(glm::radians(16.0)) * depth) + 1 &&
+           in_fan({at.x - kApex.x, at.y - kApex.y});
+  };
+  CHECK_FALSE(find_swept_planes(v.grid, v.box, crossing).tilted);
 
   const auto ball = [&](const glm::ivec3& index) {
     return glm::length(v.grid.patient_from_index(glm::dvec3(index))) < 80;

@@ -44,8 +44,8 @@ const View kSlice = {
 // The same with waves, and without the elevation focus.
 const View kWaves = {"curvilinear", kSlice.depth_mm, kSlice.patient_from_probe,
                      "preset = 'trainer'\nsamples = 240\nslice_thickness_mm = 4\nface_reflection = 1\n"
-                     "noise_db = -70\nclutter_db = -10\ntgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\ngain_db = 4\n"
-                     "steering_angles = 3\nedge_enhancement = 1\nspeckle_reduction = 0.3\n"
+                     "noise_db = -70\nring_down = 1.5\nclutter_db = -10\ntgc_db = [0, 2, 5, 9, 14, 20, 27, 35]\n"
+                     "gain_db = 4\nsteering_angles = 3\nedge_enhancement = 1\nspeckle_reduction = 0.3\n"
                      "image_width = 160\nimage_height = 120\nexact_filter = true\n"};
 
 // One plane, no effect that the paper leaves out, and gel in front of a face that stands off the skin.
@@ -105,6 +105,8 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
     CHECK(waves.at("slice_half") == kSliceHalf);
     CHECK(waves.at("mirror_share") == kMirrorShare);
     CHECK(waves.at("rough_share") == kRoughShare);
+    CHECK(waves.at("ring_down_at_face") == ring_down_at(settings, 0));
+    CHECK(waves.at("ring_down_wavelengths") == kRingDownWavelengths);
   } else {
     CHECK(text.at("envelope_scale") == envelope_scale(scene.lines, settings));
   }

@@ -78,6 +78,7 @@ std::vector<Setting> settings_to_try(const Request& request, const Scene& scene)
   other("no speckle", [](Settings& s) { s.speckle = false; });
   other("one plane", [](Settings& s) { s.slice_planes = 1; });
   other("no edge shadow", [](Settings& s) { s.edge_shadow = false; });
+  other("ring-down", [](Settings& s) { s.ring_down = kUsualRingDown; });
   other("no reverberation", [](Settings& s) { s.reverberation = false, s.face_reflection = 0; });
   other("a beam of three lines", [](Settings& s) { s.focused_beam = false, s.beam_lines = 3; });
   other("amplitudes instead of waves", [](Settings& s) { s.waves = false; });

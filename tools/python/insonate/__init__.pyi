@@ -96,13 +96,20 @@ class LabelledImages(TypedDict):
     visible_label: NDArray[np.uint8]
     reach: NDArray[np.uint8]
 
-class Stages(TypedDict):
+class Stages(TypedDict, total=False):
+    """What the settings leave out is not in it: with waves, as in the trainer, there are scattered, echo and wave, and
+    without them reflection, reflection_beam, transmission and speckle."""
     intensity: NDArray[np.float32]
     reflection: NDArray[np.float32]
     reflection_beam: NDArray[np.float32]
     transmission: NDArray[np.float32]
     repeated: NDArray[np.float32]
     speckle: NDArray[np.float32]
+    scattered: NDArray[np.float32]
+    echo_re: NDArray[np.float32]
+    echo_im: NDArray[np.float32]
+    wave_re: NDArray[np.float32]
+    wave_im: NDArray[np.float32]
     fused: NDArray[np.float32]
     inside: NDArray[np.uint8]
     image: NDArray[np.uint8]
@@ -142,7 +149,8 @@ class Simulator:
         the fan, 1 in shadow, 2 where the sound arrives); per scan line the distance to the skin in mm, negative where
         the face is pressed in."""
     def stages(self) -> Stages:
-        """All stages of the picture. The first six are on scan lines, [sample, line]; the others are pixels."""
+        """The stages of the picture, as sim/model/stages.h has them: fused, inside and image are pixels, the others are
+        on scan lines, [sample, line]."""
     @property
     def patient_from_pixel(self) -> NDArray[np.float64]:
         """From (column, row, 0, 1) of the picture to patient mm, 4 x 4."""
