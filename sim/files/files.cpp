@@ -42,6 +42,17 @@ struct TemporaryName {
   }
 };
 
+/// Throws InputError, which names `target`.
+void write_bytes(const fs::path& temporary, std::string_view bytes, const fs::path& target) {
+  errno = 0;
+  std::ofstream stream(temporary, std::ios::binary);
+  stream.write(bytes.data(), std::streamsize(bytes.size()));
+  stream.close();
+  if (!stream)
+    throw InputError(target.string(), "", "it cannot be written" + reason(),
+                     "check the folder's permissions and free space");
+}
+
 }  // namespace
 
 std::uintmax_t check_is_file(const fs::path& file) {
@@ -113,15 +124,19 @@ void write_atomically(const fs::path& file, const std::function<void(const fs::p
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  write_atomically(file, [&](const fs::path& temporary) {
-    errno = 0;
-    std::ofstream stream(temporary, std::ios::binary);
-    stream.write(bytes.data(), std::streamsize(bytes.size()));
-    stream.close();
-    if (!stream)
-      throw InputError(file.string(), "", "it cannot be written" + reason(),
-                       "check the folder's permissions and free space");
-  });
+  write_atomically(file, [&](const fs::path& temporary) { write_bytes(temporary, bytes, file); });
+}
+
+fs::path write_beside(const fs::path& file, std::string_view bytes) {
+  fs::path temporary = temporary_beside(file);
+  try {
+    write_bytes(temporary, bytes, file);
+  } catch (...) {
+    std::error_code error;
+    fs::remove(temporary, error);
+    throw;
+  }
+  return temporary;
 }
 
 fs::path free_path(const fs::path& stem, const std::string& extension) {

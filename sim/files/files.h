@@ -35,6 +35,10 @@ void write_atomically(const std::filesystem::path& file,
 /// Writes `bytes` to `file` in the same way. Throws InputError.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// Writes `bytes` to a temporary file beside `file` and returns its path, for a caller that decides itself whether it
+/// takes the name. Throws InputError, and then leaves no file.
+std::filesystem::path write_beside(const std::filesystem::path& file, std::string_view bytes);
+
 /// Returns STEM followed by `extension` if nothing has that name, else the first free one of STEM-2, STEM-3...
 /// @param extension  ".png"; empty for a folder
 std::filesystem::path free_path(const std::filesystem::path& stem, const std::string& extension);

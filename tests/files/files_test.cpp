@@ -114,6 +114,18 @@ TEST_CASE("a program without its assets says so, and how to name them") {
     CHECK(WEXITSTATUS(status) == 0);
 }
 
+TEST_CASE("a file that is written beside another has a name that the other's next write knows") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "manifest.json", beside = write_beside(file, "text");
+  CHECK(read_file(beside) == "text");
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+  fs::last_write_time(beside, fs::file_time_type::clock::now() - std::chrono::hours(48));
+  remove_old_temporaries(file);
+  CHECK(fs::is_empty(folder.path));
+  CHECK_THROWS_WITH(write_beside(folder.path / "none" / "manifest.json", "text"),
+                    Catch::Contains("none/manifest.json: it cannot be written"));
+}
+
 TEST_CASE("what killed programs left of a file goes with its next write once it is a day old, and nothing else does") {
   const TemporaryFolder folder;
   const auto put = [&](const char* name, int hours) {

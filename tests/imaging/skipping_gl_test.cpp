@@ -83,7 +83,8 @@ TEST_CASE("ring-down needs waves, and makes the frequency and the fixed level co
   });
   CHECK(f.after([&] { f.settings.fixed_level *= 2; }) == "");
   CHECK(f.after([&] { f.settings.frequency_mhz = 4; }) == "");
-  CHECK(f.after([&] { f.settings.ring_down = 1; }) == "245");
+  CHECK(f.after([&] { f.settings.ring_down = 1; }) == "01245");  // and the frequency, which nothing used
+  CHECK(f.after([&] { f.settings.ring_down = 2; }) == "245");
   CHECK(f.after([&] { f.settings.fixed_level *= 2; }) == "245");
   CHECK(f.after([&] { f.settings.frequency_mhz = 5; }) == "01245");
 }

@@ -138,8 +138,7 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
     if (error)
       throw InputError(path_.string(), "", "the folder cannot be made (" + error.message() + ")",
                        "name a folder that may be written");
-    const fs::path temporary = temporary_beside(manifest_file());
-    write_file(temporary, manifest_of(study, patients).dump(2) + "\n");
+    const fs::path temporary = write_beside(manifest_file(), manifest_of(study, patients).dump(2) + "\n");
     if (rename_to_new(temporary, manifest_file()) != Renamed::done) fs::remove(temporary, error);
   }
   check_is_of(study);
