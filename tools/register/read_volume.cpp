@@ -75,6 +75,7 @@ std::optional<FoundSweep> find_sweep(const Grid& grid, const PlaneBox& box,
     const FanSearch search = find_fan(known_in_planes(grid, box, planes, mm, known), glm::dvec2(mm));
     if (search.fan && (planes.tilted || search.fan->probe.kind != ProbeKind::linear))
       return FoundSweep{planes, *search.fan, glm::dvec2(box.low.x, planes.depths(box).x) + mm * search.fan->face_pixel};
+    if (!planes.tilted) break;  // the others are the same
   }
   return std::nullopt;
 }
