@@ -1,7 +1,5 @@
 #include "app/full_screen.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which declares OpenGL.
 #include <GLFW/glfw3.h>
 
 #include <algorithm>

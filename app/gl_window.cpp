@@ -1,8 +1,7 @@
 #include "app/gl_window.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which declares OpenGL.
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,7 +1,5 @@
 #include "app/keyboard.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which brings OpenGL's declarations.
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 

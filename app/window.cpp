@@ -1,7 +1,5 @@
 #include "app/window.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which declares OpenGL.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>

@@ -6,16 +6,10 @@
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 
 namespace insonate {
-namespace {
-
-std::string shown(double number) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, number).ptr};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TrackerUri parse_tracker_uri(std::string_view text) {
   TrackerUri uri;
@@ -62,7 +56,8 @@ double TrackerUri::number(const std::string& option, double otherwise, double le
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (error != std::errc() || end != value.data() + value.size() || !(number >= least && number <= most))
     throw InputError("tracker '" + text + "'", "option '" + option + "'",
-                     "'" + value + "' is not a number from " + shown(least) + " to " + shown(most), "change it");
+                     "'" + value + "' is not a number from " + exact_text(least) + " to " + exact_text(most),
+                     "change it");
   return number;
 }
 

@@ -80,9 +80,9 @@ std::vector<std::string_view> parts(std::string_view text, char separator) {
   return found;
 }
 
-class Reader {
+class ActionReader {
 public:
-  Reader(const std::string& file, const std::string& place) : file_(file), place_(place) {}
+  ActionReader(const std::string& file, const std::string& place) : file_(file), place_(place) {}
 
   Action read(std::string_view text) const {
     const std::vector<std::string_view> words = parts(text, ' ');
@@ -195,7 +195,7 @@ std::string to_text(std::span<const Action> actions) {
 }
 
 std::vector<Action> parse_actions(std::string_view text, const std::string& file, const std::string& place) {
-  const Reader reader(file, place);
+  const ActionReader reader(file, place);
   std::vector<Action> actions;
   for (const std::string_view part : parts(text, ';')) actions.push_back(reader.read(part));
   return actions;

@@ -25,6 +25,9 @@ struct TrackerIdentity {
   std::string words() const;  ///< "hydra, serial 1234, sensor 2"
 };
 
+/// The largest file of a set-up: a calibration, landmarks or a drawing.
+inline constexpr std::size_t kMostSetupBytes = 1u << 20;
+
 /// A result of a set-up step and the time when it was made, in seconds since 1970 (UTC).
 template <typename T>
 struct Dated {

@@ -16,9 +16,6 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kMostBytes = 1u << 20;
-/// Nothing in a set-up is farther away (why_not_rigid has the same limit).
-constexpr double kFarthestMm = 1e5;
 /// As many as a Viper has.
 constexpr int kMostSensors = 16;
 
@@ -35,8 +32,8 @@ template <typename Io>
 void fields(Io& io, TipFit& tip) {
   io.point("tip_mm", tip.tip_mm);
   io.point("pivot_mm", tip.pivot_mm);
-  io.number("residual_mm", tip.residual_mm, 0, kFarthestMm);
-  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kFarthestMm);
+  io.number("residual_mm", tip.residual_mm, 0, kTrackerRangeMm);
+  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kTrackerRangeMm);
   io.number("spread_deg", tip.spread_deg, 0, 90);
   io.count("used", tip.used);
   io.count("rejected", tip.rejected);
@@ -47,8 +44,8 @@ void fields(Io& io, FaceSetup& face) {
   io.text("method", face.method);
   io.pose("sensor_from_face", face.fit.sensor_from_face);
   io.number("skew_deg", face.fit.skew_deg, 0, 90);
-  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kFarthestMm);
-  io.number("tip_off_mm", face.tip_off_mm, 0, kFarthestMm);
+  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kTrackerRangeMm);
+  io.number("tip_off_mm", face.tip_off_mm, 0, kTrackerRangeMm);
 }
 
 template <typename Io>
@@ -71,10 +68,10 @@ void fields(Io& io, MannequinSetup& mannequin) {
   io.text("patient", mannequin.patient);
   io.pose("ct_from_mannequin", mannequin.ct_from_mannequin);
   io.pose("mannequin_from_tracker", mannequin.mannequin_from_tracker);
-  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kFarthestMm);
-  io.number("residual_mm", mannequin.residual_mm, 0, kFarthestMm);
+  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kTrackerRangeMm);
+  io.number("residual_mm", mannequin.residual_mm, 0, kTrackerRangeMm);
   io.text("worst", mannequin.worst);
-  io.number("worst_mm", mannequin.worst_mm, 0, kFarthestMm);
+  io.number("worst_mm", mannequin.worst_mm, 0, kTrackerRangeMm);
   io.landmarks("landmark", mannequin.landmarks);
 }
 
@@ -131,7 +128,7 @@ public:
   }
   void point(const char* key, glm::dvec3& point) {
     point = table_.vector(key);
-    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(kFarthestMm))))
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(kTrackerRangeMm))))
       table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
   }
   void pose(const char* key, Pose& pose) {
@@ -212,7 +209,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
 }
 
 Calibration read_calibration(const std::filesystem::path& file) {
-  return parse_calibration(read_file(file, kMostBytes), file.string());
+  return parse_calibration(read_file(file, kMostSetupBytes), file.string());
 }
 
 Calibration read_complete_calibration(const std::filesystem::path& file) {

@@ -15,7 +15,7 @@ namespace {
 
 using Points = std::vector<glm::dvec3>;
 
-struct Fit {
+struct RigidFit {
   Pose to_from;
   bool mirrored = false;  ///< a reflection would fit better
 };
@@ -36,7 +36,7 @@ Eigen::Matrix3d moment_of(const Points& b, const Points& a) {
 
 // Horn's quaternion is the eigenvector of the largest eigenvalue of a symmetric matrix made from the points' moment.
 // Among all orthogonal matrices a reflection fits best if the moment's determinant is negative.
-Fit fit_rigid(const Points& from, const Points& to) {
+RigidFit fit_rigid(const Points& from, const Points& to) {
   const Eigen::Matrix3d m = moment_of(to, from);
   Eigen::Matrix4d horn;
   horn << m.trace(), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1),  //
@@ -45,7 +45,7 @@ Fit fit_rigid(const Points& from, const Points& to) {
       0, 0, 0, m(2, 2) - m(0, 0) - m(1, 1);
   const Eigen::Matrix4d lower = horn.transpose();  // the triangle that the solver reads
   const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(lower).eigenvectors().col(3);
-  Fit fit;
+  RigidFit fit;
   fit.mirrored = m.determinant() < 0;
   fit.to_from.rotation = glm::mat3_cast(glm::normalize(glm::dquat(q[0], q[1], q[2], q[3])));
   fit.to_from.translation = centre_of(to) - fit.to_from.rotation * centre_of(from);
@@ -93,7 +93,7 @@ void find_worst(std::span<const LandmarkPair> pairs, Registration& found) {
     std::vector<const LandmarkPair*> others;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (i != out) others.push_back(&pairs[i]);
-    const Fit fit = fit_rigid(places(others, &LandmarkPair::touched_mm), places(others, &LandmarkPair::ct_mm));
+    const RigidFit fit = fit_rigid(places(others, &LandmarkPair::touched_mm), places(others, &LandmarkPair::ct_mm));
     const double error = error_mm(fit.to_from, pairs[out]);
     if (error <= found.worst_mm) continue;
     found.worst_mm = error;
@@ -125,7 +125,7 @@ Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs) {
         line ? spread.off_line_mm : spread.off_plane_mm, line ? "line" : "plane");
     return Refusal{text};
   }
-  const Fit fit = fit_rigid(touched, ct);
+  const RigidFit fit = fit_rigid(touched, ct);
   Registration found;
   found.ct_from_touched = fit.to_from;
   found.residual_mm = rms_error_mm(fit.to_from, fitted);

@@ -11,19 +11,19 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kMostBytes = 1u << 20, kMostLandmarks = 64;
-constexpr double kFarthestMm = 1e5;
+constexpr std::size_t kMostLandmarks = 64;
 
 glm::dvec3 read_point(const TomlTable& table, const char* key) {
   const glm::dvec3 point = table.vector(key);
-  if (!(glm::length(point) <= kFarthestMm)) table.fail(key, "the point lies 100 m away or farther", "give it in mm");
+  if (!(glm::length(point) <= kTrackerRangeMm))
+    table.fail(key, "the point lies 100 m away or farther", "give it in mm");
   return point;
 }
 
 }  // namespace
 
 LandmarkList read_landmark_list(const std::filesystem::path& file) {
-  const TomlDocument document(file.string(), read_file(file, kMostBytes));
+  const TomlDocument document(file.string(), read_file(file, kMostSetupBytes));
   const TomlTable top = document.root();
   LandmarkList list{top.text("patient"), {}};
   std::set<std::string> names;
@@ -46,7 +46,7 @@ LandmarkList read_landmark_list(const std::filesystem::path& file) {
 }
 
 ProbeDrawing read_probe_drawing(const std::filesystem::path& file) {
-  const TomlDocument document(file.string(), read_file(file, kMostBytes));
+  const TomlDocument document(file.string(), read_file(file, kMostSetupBytes));
   const TomlTable top = document.root();
   ProbeDrawing drawing;
   drawing.name = top.text("name");

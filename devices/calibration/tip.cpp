@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-struct Fit {
+struct PivotFit {
   glm::dvec3 tip{0}, pivot{0};
   double least_turn = 0;  ///< smallest RMS displacement of any unit vector under the rotations
 };
@@ -28,7 +28,7 @@ struct Fit {
 // -m with M = mean((R - Rm)^T (R - Rm)) and m = mean((R - Rm)^T (p - pm)). The smallest eigenvalue of M shows how well
 // the rotations span.
 template <typename Poses>
-Fit least_squares(const Poses& poses) {
+PivotFit least_squares(const Poses& poses) {
   Eigen::Matrix3d mean_rotation = Eigen::Matrix3d::Zero();
   Eigen::Vector3d mean_position = Eigen::Vector3d::Zero();
   for (const Pose& pose : poses) {
@@ -43,7 +43,7 @@ Fit least_squares(const Poses& poses) {
     right -= turned.transpose() * (eigen(pose.translation) - mean_position) / double(poses.size());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
-  Fit fit;
+  PivotFit fit;
   fit.least_turn = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
   if (fit.least_turn < 1e-9) return fit;
   const Eigen::Vector3d tip =
@@ -53,7 +53,7 @@ Fit least_squares(const Poses& poses) {
   return fit;
 }
 
-double distance_mm(const Fit& fit, const Pose& pose) {
+double distance_mm(const PivotFit& fit, const Pose& pose) {
   return glm::distance(pose.point(fit.tip), fit.pivot);
 }
 
@@ -62,17 +62,17 @@ double degrees_of(double turn) {
 }
 
 // Returns the fit to three poses that has the smallest median distance over all poses.
-Fit least_median(std::span<const Pose> poses, double& least_mm) {
+PivotFit least_median(std::span<const Pose> poses, double& least_mm) {
   constexpr std::uint32_t kTrials = 300;
   constexpr std::size_t kJudged = 1000;
   const std::size_t stride = (poses.size() + kJudged - 1) / kJudged;
-  Fit best;
+  PivotFit best;
   least_mm = std::numeric_limits<double>::infinity();
   std::vector<double> distances;
   for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
     std::array<Pose, 3> three;
     for (std::uint32_t i = 0; i < 3; ++i) three[i] = poses[hash(trial, i) % poses.size()];
-    const Fit fit = least_squares(three);
+    const PivotFit fit = least_squares(three);
     // Three poses close together determine nothing, and could win among other such triples.
     if (degrees_of(fit.least_turn) < kLeastPivotSpreadDeg / 2) continue;
     distances.clear();
@@ -109,7 +109,7 @@ Outcome<TipFit> fit_tip(std::span<const Pose> poses) {
   const double spread_deg = pivot_spread_deg(poses);
   if (spread_deg < kLeastPivotSpreadDeg) return turned_too_little(spread_deg);
   double median_mm = 0;
-  Fit fit = least_median(poses, median_mm);
+  PivotFit fit = least_median(poses, median_mm);
   if (!std::isfinite(median_mm)) return turned_too_little(spread_deg);
 
   // For noise with standard deviation s along each axis, the median distance is 1.538 s, and 99 % are within 3.368 s

@@ -7,13 +7,13 @@
 namespace insonate {
 namespace {
 
-constexpr DeviceKind::Model kModels[] = {{0x1532, 0x0300, "Razer Hydra"}};
+constexpr DeviceKind::Model kHydraModels[] = {{0x1532, 0x0300, "Razer Hydra"}};
 // The bumper, and the buttons 1 and 2.
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {2, kEventMarkerButton}, {3, kContinueButton}};
+constexpr ButtonMeaning kHydraButtons[] = {{0, kFreezeButton}, {2, kEventMarkerButton}, {3, kContinueButton}};
 
 }  // namespace
 
-const DeviceKind kHydraDevice{.name = "Razer Hydra", .models = kModels, .interface_number = 0};
+const DeviceKind kHydraDevice{.name = "Razer Hydra", .models = kHydraModels, .interface_number = 0};
 
 HydraSource::HydraSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::size_t handset,
                          const Placement& placement, std::function<double()> clock_s)
@@ -35,7 +35,7 @@ bool HydraSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally
   if (parsed.fault != ReportFault::none) return false;
   if (!numbers_.is_new(parsed.report.sequence, tally)) return true;
   const SensorReading& reading = parsed.report.handsets[handset_].reading;
-  ProbeSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons)};
+  ProbeSample sample{time_s, reading.status, {}, probe_buttons(kHydraButtons, reading.buttons)};
   if (reading.status == PoseStatus::ok)
     sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
   batch.samples.push_back(sample);

@@ -5,7 +5,7 @@
 namespace insonate {
 namespace {
 
-constexpr DeviceKind::Model kModels[] = {
+constexpr DeviceKind::Model kOsvrModels[] = {
     {0x1532, 0x0b00, "OSVR HDK head tracker", "reports orientation only"},
     {0x03eb, 0x2421, "OSVR HDK head tracker", "reports orientation only"},
 };
@@ -16,7 +16,7 @@ const glm::dquat kProbeFromSensor(0, 0, 0, 1);
 
 }  // namespace
 
-const DeviceKind kOsvrDevice{.name = "OSVR head tracker", .models = kModels};
+const DeviceKind kOsvrDevice{.name = "OSVR head tracker", .models = kOsvrModels};
 
 OsvrSource::OsvrSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
                        std::function<double()> clock_s)

@@ -11,12 +11,11 @@ namespace {
 constexpr double kMmPerCm = 10;
 
 // Liberty and Patriot.
-constexpr std::size_t kHeader = 8, kBody = 40;
+constexpr std::size_t kLibertyHeader = 8, kLibertyBody = 40;
 constexpr int kMostStations = 16;
 
 // Viper: sizes of the frame's parts before the sensors, per sensor, and after them.
 constexpr std::size_t kViperHeader = 8, kViperInfo = 16, kViperSensor = 32, kViperCrc = 4;
-constexpr std::uint32_t kMostSensors = 16;
 
 /// Classification of the first stored bytes.
 struct Front {
@@ -30,14 +29,14 @@ bool begins(Bytes bytes, std::string_view tag) {
 }
 
 Front liberty(Bytes bytes, std::vector<PolhemusRecord>& records) {
-  if (bytes.size() < kHeader) return {Front::begun};
+  if (bytes.size() < kLibertyHeader) return {Front::begun};
   const int station = bytes[2];
   const bool is_pose = bytes[3] == 'C' || bytes[3] == 'P' || bytes[3] == 'c' || bytes[3] == 'p';
-  if (station < 1 || station > kMostStations || !is_pose || u16_at(bytes, 6) != kBody) return {Front::nothing};
-  if (bytes.size() < kHeader + kBody) return {Front::begun};
+  if (station < 1 || station > kMostStations || !is_pose || u16_at(bytes, 6) != kLibertyBody) return {Front::nothing};
+  if (bytes.size() < kLibertyHeader + kLibertyBody) return {Front::begun};
 
   PolhemusRecord record;
-  const Bytes body = bytes.subspan(kHeader);
+  const Bytes body = bytes.subspan(kLibertyHeader);
   record.frame = u32_at(body, 4);
   const auto at = [&](std::size_t offset) { return double(f32_at(body, offset)); };
   set_pose(record.reading, kMmPerCm * glm::dvec3(at(12), at(16), at(20)), at(24), at(28), at(32), at(36));
@@ -46,7 +45,7 @@ Front liberty(Bytes bytes, std::vector<PolhemusRecord>& records) {
   record.reading.distortion = u32_at(body, 8) & 0x7fffffffu;
   if (bytes[4] != ' ') record.reading.status = PoseStatus::invalid;
   records.push_back(record);
-  return {Front::complete, kHeader + kBody};
+  return {Front::complete, kLibertyHeader + kLibertyBody};
 }
 
 SensorReading viper_sensor(Bytes bytes) {
@@ -66,7 +65,8 @@ SensorReading viper_sensor(Bytes bytes) {
 Front viper_frame(Bytes bytes, std::vector<PolhemusRecord>& records) {
   if (bytes.size() < kViperHeader + kViperInfo) return {Front::begun};
   const std::uint32_t size = u32_at(bytes, 4), sensors = u32_at(bytes, 20);
-  if (sensors > kMostSensors || size != kViperInfo + kViperSensor * sensors + kViperCrc) return {Front::nothing};
+  if (sensors > kMostPolhemusSensors || size != kViperInfo + kViperSensor * sensors + kViperCrc)
+    return {Front::nothing};
   const std::size_t length = kViperHeader + size;
   if (bytes.size() < length) return {Front::begun};
   if (crc16_arc(bytes.first(length - kViperCrc)) != u32_at(bytes, length - kViperCrc)) return {Front::damaged};

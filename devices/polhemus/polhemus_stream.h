@@ -7,6 +7,9 @@
 
 namespace insonate {
 
+/// As many as a Viper has, more than the others.
+inline constexpr std::uint32_t kMostPolhemusSensors = 16;
+
 /// A sensor's pose as a Polhemus Patriot, Liberty or Viper sends it.
 struct PolhemusRecord {
   std::uint32_t frame = 0;  ///< numbered by the device: one more with each frame; all sensors of a frame share it

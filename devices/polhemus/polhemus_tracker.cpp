@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint16_t kVendor = 0x0f44, kViper = 0xbf01;
 constexpr std::string_view kWaits = "waits for its firmware: load it with the maker's software, then plug in again";
-constexpr DeviceKind::Model kModels[] = {
+constexpr DeviceKind::Model kPolhemusModels[] = {
     {kVendor, 0xef12, "Polhemus Patriot", "", {0x02, 0x82}},
     {kVendor, 0xef20, "Polhemus Patriot HS", "", {0x04, 0x88}},
     {kVendor, 0xff20, "Polhemus Liberty HS", "", {0x04, 0x88}},
@@ -21,8 +21,8 @@ constexpr DeviceKind::Model kModels[] = {
     {kVendor, 0xff21, "Polhemus tracker", kWaits, {}, false},
     {kVendor, 0x0001, "Polhemus tracker", kWaits, {}, false},
 };
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kEventMarkerButton}};  // a stylus has one button or two
-constexpr std::uint32_t kMostSensors = 16;
+constexpr ButtonMeaning kPolhemusButtons[] = {{0, kFreezeButton},
+                                              {1, kEventMarkerButton}};  // a stylus has one button or two
 
 void send(Transport& transport, std::string_view text) {
   transport.send({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -30,7 +30,7 @@ void send(Transport& transport, std::string_view text) {
 
 }  // namespace
 
-const DeviceKind kPolhemusDevice{.name = "Polhemus tracker", .bus = Bus::usb, .models = kModels};
+const DeviceKind kPolhemusDevice{.name = "Polhemus tracker", .bus = Bus::usb, .models = kPolhemusModels};
 
 PolhemusSource::PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::uint32_t sensor,
                                const Placement& placement, std::function<double()> clock_s)
@@ -71,11 +71,12 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
     const SensorReading& reading = record.reading;
     if (reading.sensor == sensor_ || !sensor_s_) sensor_s_ = time_s;
     if (reading.sensor != sensor_) {
-      if (reading.sensor < kMostSensors) others_ |= 1u << reading.sensor;
+      if (reading.sensor < kMostPolhemusSensors) others_ |= 1u << reading.sensor;
       continue;
     }
     if (!numbers_.is_new(record.frame, tally)) continue;
-    ProbeSample sample{time_s, reading.status, {}, probe_buttons(kButtons, reading.buttons), reading.distortion};
+    ProbeSample sample{
+        time_s, reading.status, {}, probe_buttons(kPolhemusButtons, reading.buttons), reading.distortion};
     if (sample.status == PoseStatus::ok)
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
     batch.samples.push_back(sample);
@@ -86,7 +87,7 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
 
 std::string PolhemusSource::missing_sensor() const {
   std::string others;
-  for (std::uint32_t i = 0; i < kMostSensors; ++i)
+  for (std::uint32_t i = 0; i < kMostPolhemusSensors; ++i)
     if ((others_ >> i & 1) != 0) others += (others.empty() ? "" : ", ") + std::to_string(i + 1);
   const std::string wanted = std::to_string(sensor_ + 1);
   return "The Polhemus tracker sends sensor " + others + " but not sensor " + wanted +
@@ -95,7 +96,7 @@ std::string PolhemusSource::missing_sensor() const {
 
 std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({"sensor", "raw"});
-  const auto sensor = std::uint32_t(uri.number("sensor", 1, 1, kMostSensors)) - 1;
+  const auto sensor = std::uint32_t(uri.number("sensor", 1, 1, kMostPolhemusSensors)) - 1;
   return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, sensor,
                                           Placement(context.start, uri.flag("raw", false)));
 }

@@ -1,24 +1,19 @@
 #include "devices/record/raw_recorder.h"
 
-#include <charconv>
 #include <cstdio>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
 
 /// Returns the fewest digits that read back to the same double, in any locale.
-std::string shown(double number) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
-}
-
 std::string head(std::string_view uri, const Pose& start) {
   std::string text = "insonate raw 1\ntracker " + std::string(uri) + "\nstart";
   for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) text += " " + shown(start.rotation[column][row]);
-  for (int axis = 0; axis < 3; ++axis) text += " " + shown(start.translation[axis]);
+    for (int row = 0; row < 3; ++row) text += " " + exact_text(start.rotation[column][row]);
+  for (int axis = 0; axis < 3; ++axis) text += " " + exact_text(start.translation[axis]);
   return text + "\n";
 }
 
@@ -31,12 +26,12 @@ RawRecorder::RawRecorder(const std::filesystem::path& file, std::string_view uri
 void RawRecorder::opened(const AttachedDevice& device, double time_s) noexcept {
   char numbers[16];
   std::snprintf(numbers, sizeof numbers, "%04x:%04x", unsigned{device.vendor}, unsigned{device.product});
-  append("open " + shown(time_s) + " " + numbers + "\n");
+  append("open " + exact_text(time_s) + " " + numbers + "\n");
 }
 
 void RawRecorder::came(Bytes bytes, double time_s) noexcept {
   constexpr char kDigits[] = "0123456789abcdef";
-  std::string text = "read " + shown(time_s);
+  std::string text = "read " + exact_text(time_s);
   if (!bytes.empty()) text += ' ';
   for (const std::uint8_t byte : bytes) {
     text += kDigits[byte >> 4];
@@ -46,7 +41,7 @@ void RawRecorder::came(Bytes bytes, double time_s) noexcept {
 }
 
 void RawRecorder::silent(double time_s) noexcept {
-  append("silent " + shown(time_s) + "\n");
+  append("silent " + exact_text(time_s) + "\n");
 }
 
 std::string RawRecorder::problem() const {

@@ -10,17 +10,17 @@
 namespace insonate {
 namespace {
 
-constexpr std::string_view kLayoutFields[] = {"ObjectType",
-                                              "NDims",
-                                              "DimSize",
-                                              "Kinds",
-                                              "BinaryData",
-                                              "BinaryDataByteOrderMSB",
-                                              "ElementByteOrderMSB",
-                                              "CompressedData",
-                                              "CompressedDataSize",
-                                              "ElementType",
-                                              "ElementNumberOfChannels"};
+constexpr std::string_view kMetaImageLayout[] = {"ObjectType",
+                                                 "NDims",
+                                                 "DimSize",
+                                                 "Kinds",
+                                                 "BinaryData",
+                                                 "BinaryDataByteOrderMSB",
+                                                 "ElementByteOrderMSB",
+                                                 "CompressedData",
+                                                 "CompressedDataSize",
+                                                 "ElementType",
+                                                 "ElementNumberOfChannels"};
 
 // Types that MetaIO does not call numbers; its readers take them as bytes.
 constexpr std::string_view kByteTypes[] = {"MET_ASCII_CHAR", "MET_OTHER", "MET_NONE"};
@@ -110,7 +110,7 @@ private:
 }  // namespace
 
 bool is_layout_field(std::string_view name) {
-  return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);
+  return std::find(std::begin(kMetaImageLayout), std::end(kMetaImageLayout), name) != std::end(kMetaImageLayout);
 }
 
 SequenceLayout metaimage_layout(const HeaderFields& fields, std::uint64_t bytes_after, const std::string& file) {

@@ -8,8 +8,8 @@
 namespace insonate {
 namespace {
 
-constexpr std::string_view kLayoutFields[] = {"type",   "dimension", "sizes",    "kinds",     "encoding",
-                                              "endian", "byte skip", "byteskip", "line skip", "lineskip"};
+constexpr std::string_view kNrrdLayout[] = {"type",   "dimension", "sizes",    "kinds",     "encoding",
+                                            "endian", "byte skip", "byteskip", "line skip", "lineskip"};
 
 [[noreturn]] void fail(const std::string& file, const std::string& problem, const std::string& remedy = kExportAgain) {
   throw InputError(file, "header", problem, remedy);
@@ -59,7 +59,7 @@ bool is_whole_gzip(const CutBytes& data, std::uint64_t raw_bytes) {
 }  // namespace
 
 bool is_nrrd_layout_field(std::string_view name) {
-  return std::find(std::begin(kLayoutFields), std::end(kLayoutFields), name) != std::end(kLayoutFields);
+  return std::find(std::begin(kNrrdLayout), std::end(kNrrdLayout), name) != std::end(kNrrdLayout);
 }
 
 SequenceLayout nrrd_layout(const HeaderFields& fields, const CutBytes& data, const std::string& file) {

@@ -14,7 +14,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;
+constexpr std::size_t kInflatedAtOnce = 1 << 16;
 constexpr std::uint64_t kBetweenPlaces = 16 << 20;
 
 double value_at(const std::uint8_t* bytes, const ImageForm& form) {
@@ -52,8 +52,8 @@ public:
       return;
     }
     go_to(from);
-    std::vector<std::uint8_t> skipped(kPiece);
-    while (at_ < from) inflate_some(skipped.data(), std::size_t(std::min<std::uint64_t>(kPiece, from - at_)));
+    std::vector<std::uint8_t> skipped(kInflatedAtOnce);
+    while (at_ < from) inflate_some(skipped.data(), std::size_t(std::min<std::uint64_t>(kInflatedAtOnce, from - at_)));
     inflate_some(to, count);
   }
 
@@ -84,7 +84,7 @@ private:
     if (inflating_) inflateEnd(&state_);
     inflating_ = false;
     state_ = {};
-    input_.resize(kPiece);
+    input_.resize(kInflatedAtOnce);
     if (place == places_.end()) {
       // 15 bits of window; detects zlib's or gzip's header.
       if (inflateInit2(&state_, 15 + 32) != Z_OK) throw std::bad_alloc();

@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;
+constexpr std::size_t kReadAtOnce = 1 << 16;
 /// Bytes of the images that show whether a compressed stream is complete: its magic number at the front, its size at
 /// the end.
 constexpr std::size_t kEnds = 64;
@@ -46,8 +46,8 @@ SequenceFile read_sequence_file(const std::filesystem::path& file, std::size_t m
   SequenceFile read;
   Digest digest;
   HeaderEnd end;
-  std::vector<char> buffer(kPiece);
-  while (stream.read(buffer.data(), kPiece), stream.gcount() > 0) {
+  std::vector<char> buffer(kReadAtOnce);
+  while (stream.read(buffer.data(), kReadAtOnce), stream.gcount() > 0) {
     const std::string_view piece(buffer.data(), std::size_t(stream.gcount()));
     digest.add(piece);
     read.size += piece.size();

@@ -30,7 +30,7 @@ constexpr std::size_t kMostTransforms = 256;
 constexpr std::size_t kLeastFrameBytes = 23;
 
 constexpr const char* kGiveSequence = "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)";
-constexpr const char* kRecordAgain = "record the scan again";
+constexpr const char* kScanAgain = "record the scan again";
 constexpr const char* kRecordWithTracker = "record it with a tracker, so that its frames have ProbeToTrackerTransform";
 
 std::optional<glm::dmat4> to_matrix(std::string_view value) {
@@ -120,7 +120,7 @@ private:
     throw InputError(sequence_.file, place, problem, remedy);
   }
   [[noreturn]] void fail(std::size_t frame, const std::string& problem) const {
-    fail("frame " + std::to_string(frame), problem, kRecordAgain);
+    fail("frame " + std::to_string(frame), problem, kScanAgain);
   }
   [[noreturn]] void fail_twice(const FrameField& field) const {
     fail(field.frame, quoted(field.name) + " is given a second time, in line " + std::to_string(field.line));
@@ -165,7 +165,7 @@ private:
       fail("header",
            "DimSize says " + std::to_string(frames) + " frames, but the last one described is frame " +
                std::to_string(*highest_frame_),
-           kRecordAgain);
+           kScanAgain);
     sequence_.frames.resize(std::size_t(frames));
     for (std::size_t f = 0; f < sequence_.frames.size(); ++f) sequence_.frames[f].number = f;
     seen_.resize(std::size_t(frames));

@@ -12,13 +12,13 @@ namespace insonate {
 namespace {
 
 constexpr std::string_view kDesk = "moves the probe at a desk";
-constexpr DeviceKind::Model kModels[] = {
+constexpr DeviceKind::Model kSpaceMouseModels[] = {
     {0x046d, 0xc626, "3Dconnexion SpaceNavigator", kDesk},
     {0x256f, 0xc635, "3Dconnexion SpaceMouse Compact", kDesk},
     {0x256f, 0xc62e, "3Dconnexion SpaceMouse Wireless", kDesk},
     {0x256f, kAnyProduct, "3Dconnexion SpaceMouse", kDesk},
 };
-constexpr ButtonMeaning kButtons[] = {{0, kFreezeButton}, {1, kEventMarkerButton}};  // left, right
+constexpr ButtonMeaning kSpaceMouseButtons[] = {{0, kFreezeButton}, {1, kEventMarkerButton}};  // left, right
 
 /// Converts the cap's axes (right, towards the user, down) to the probe's frame (marker, beam, elevation).
 glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
@@ -27,7 +27,7 @@ glm::dvec3 probe_from_cap(const glm::dvec3& cap) {
 
 }  // namespace
 
-const DeviceKind kSpaceMouseDevice{.name = "SpaceMouse", .models = kModels, .steady = false};
+const DeviceKind kSpaceMouseDevice{.name = "SpaceMouse", .models = kSpaceMouseModels, .steady = false};
 
 SpaceMouseSource::SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start,
                                    double speed, std::function<double()> clock_s)
@@ -70,7 +70,7 @@ bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, Report
     }
   }
   batch.samples.push_back(
-      {time_s, PoseStatus::ok, {glm::mat3_cast(rotation_), translation_}, probe_buttons(kButtons, buttons_)});
+      {time_s, PoseStatus::ok, {glm::mat3_cast(rotation_), translation_}, probe_buttons(kSpaceMouseButtons, buttons_)});
   return understood;
 }
 

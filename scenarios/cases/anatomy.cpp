@@ -17,10 +17,9 @@ constexpr double kSectionHalf_mm = 4;        // a vessel's centre is averaged ov
 constexpr double kCourse_mm = 15;            // and its direction is taken between the centres at this distance
 constexpr double kRecess_mm = 20;            // organs further apart have fat between them, not a recess
 
-const StructureShape* find(const std::vector<StructureShape>& shapes, std::string_view name) {
-  const auto found =
-      std::find_if(shapes.begin(), shapes.end(), [&](const auto& one) { return one.label.name == name; });
-  return found == shapes.end() || found->voxels < kFewestVoxels ? nullptr : &*found;
+const StructureShape* find_whole(const std::vector<StructureShape>& shapes, std::string_view name) {
+  const StructureShape* found = find_shape(shapes, name);
+  return found && found->voxels >= kFewestVoxels ? found : nullptr;
 }
 
 /// The range of heights of a structure's bounding box.
@@ -50,7 +49,7 @@ std::optional<VesselLevel> level_at(const Case& subject, const StructureShape& v
 Vessel follow(const Case& subject, const StructureShape& shape, const std::vector<StructureShape>& shapes) {
   auto [bottom, top] = heights_of(subject, shape);
   // Above the liver's dome lies the chest, where the aorta is behind the lung.
-  if (const StructureShape* liver = find(shapes, "liver")) top = std::min(top, heights_of(subject, *liver).top);
+  if (const StructureShape* liver = find_whole(shapes, "liver")) top = std::min(top, heights_of(subject, *liver).top);
   Vessel vessel{&shape, {}};
   const auto add = [&](double z, const std::string& name, const std::string& title) {
     if (auto level = level_at(subject, shape, z)) {
@@ -61,7 +60,7 @@ Vessel follow(const Case& subject, const StructureShape& shape, const std::vecto
     }
   };
   for (const char* name : {"l5", "l4", "l3", "l2", "l1", "t12", "t11"}) {
-    const StructureShape* vertebra = find(shapes, std::string("vertebrae_") + name);
+    const StructureShape* vertebra = find_whole(shapes, std::string("vertebrae_") + name);
     if (!vertebra || vertebra->cut || vertebra->centroid.z <= bottom || vertebra->centroid.z >= top) continue;
     std::string title = std::string("at ") + name;
     title[3] = char(std::toupper(static_cast<unsigned char>(title[3])));
@@ -87,16 +86,16 @@ std::string end_of_organ(const StructureShape& organ, bool higher, const glm::dv
 Anatomy find_anatomy(const Case& subject, const std::vector<StructureShape>& shapes) {
   Anatomy anatomy;
   for (const char* name : kOrgans)
-    if (const StructureShape* organ = find(shapes, name)) anatomy.organs.push_back(organ);
+    if (const StructureShape* organ = find_whole(shapes, name)) anatomy.organs.push_back(organ);
   for (const char* name : kVessels)
-    if (const StructureShape* shape = find(shapes, name)) {
+    if (const StructureShape* shape = find_whole(shapes, name)) {
       Vessel vessel = follow(subject, *shape, shapes);
       if (!vessel.levels.empty()) anatomy.vessels.push_back(std::move(vessel));
     }
   constexpr std::array<std::array<const char*, 3>, 2> kRecesses = {
       {{"hepatorenal", "liver", "kidney_right"}, {"splenorenal", "spleen", "kidney_left"}}};
   for (const auto& [name, organ_name, kidney_name] : kRecesses) {
-    const StructureShape *organ = find(shapes, organ_name), *kidney = find(shapes, kidney_name);
+    const StructureShape *organ = find_whole(shapes, organ_name), *kidney = find_whole(shapes, kidney_name);
     if (!organ || !kidney) continue;
     if (const auto contact = contact_between(subject, *organ, *kidney, kRecess_mm))
       anatomy.recesses.push_back({name, organ, kidney, contact->point});

@@ -26,19 +26,13 @@ struct Tally {
   bool mostly_against() const { return 2 * int(against.size()) > made; }
 };
 
-const StructureShape* find(const std::vector<StructureShape>& shapes, std::string_view name) {
-  const auto found =
-      std::find_if(shapes.begin(), shapes.end(), [&](const auto& one) { return one.label.name == name; });
-  return found == shapes.end() ? nullptr : &*found;
-}
-
 Tally compare_sides(const std::vector<StructureShape>& shapes) {
   Tally tally;
   for (const StructureShape& right : shapes) {
     std::string name = right.label.name;
     const auto at = name.find("_right");
     if (at == std::string::npos) continue;
-    const StructureShape* left = find(shapes, name.replace(at, 6, "_left"));
+    const StructureShape* left = find_shape(shapes, name.replace(at, 6, "_left"));
     if (left && left->label.tissue == right.label.tissue)
       tally.compare(right.centroid.x < left->centroid.x,
                     "'" + right.label.name + "' lies left of '" + left->label.name + "'");
@@ -53,7 +47,7 @@ Tally compare_heights(const std::vector<StructureShape>& shapes) {
   Tally tally;
   const StructureShape* below = nullptr;
   for (const char* name : kFromBelow) {
-    const StructureShape* here = find(shapes, name);
+    const StructureShape* here = find_shape(shapes, name);
     if (here && below)
       tally.compare(here->centroid.z > below->centroid.z,
                     "'" + here->label.name + "' lies below '" + below->label.name + "'");
@@ -74,7 +68,7 @@ Tally compare_depths(const std::vector<StructureShape>& shapes) {
     }
   if (vertebrae == 0) return tally;
   for (const char* name : kBeforeTheSpine)
-    if (const StructureShape* organ = find(shapes, name))
+    if (const StructureShape* organ = find_shape(shapes, name))
       tally.compare(organ->centroid.y < spine / vertebrae, "'" + organ->label.name + "' lies behind the spine");
   return tally;
 }

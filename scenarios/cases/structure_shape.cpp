@@ -183,6 +183,11 @@ std::vector<StructureShape> structure_shapes(const Case& subject) {
   return shapes;
 }
 
+const StructureShape* find_shape(const std::vector<StructureShape>& shapes, std::string_view name) {
+  const auto found = std::ranges::find_if(shapes, [&](const StructureShape& one) { return one.label.name == name; });
+  return found == shapes.end() ? nullptr : &*found;
+}
+
 std::optional<glm::dvec3> centre_at_height(const Case& subject, const StructureShape& shape, double z_mm,
                                            double half_mm) {
   const Grid& grid = subject.labels.grid;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/volume/case.h"
@@ -35,6 +36,9 @@ struct StructureShape {
 /// Returns the shapes of all structures with voxels in the case's table, in the table's order. All sums are of
 /// integers, so that the number of threads does not change them.
 std::vector<StructureShape> structure_shapes(const Case& subject);
+
+/// Returns the shape of the structure with that name, or null.
+const StructureShape* find_shape(const std::vector<StructureShape>& shapes, std::string_view name);
 
 /// Returns the centre of the part of a structure within `half_mm` of the height `z_mm`, or nothing if that part is
 /// empty.

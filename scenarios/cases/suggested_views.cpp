@@ -22,7 +22,7 @@ struct Plan {
   WantedPicture wanted;
 };
 
-std::string percent(double share) {
+std::string whole_percent(double share) {
   return std::to_string(std::lround(100 * share)) + " %";
 }
 
@@ -109,8 +109,8 @@ public:
       made_.notes.push_back("No view '" + plans.front().name + "': no place on the skin shows it.");
       return;
     }
-    const std::string shows = percent(window->section_share) + " of the section, " + percent(window->clear_share) +
-                              " of it clear of bone and gas";
+    const std::string shows = whole_percent(window->section_share) + " of the section, " +
+                              whole_percent(window->clear_share) + " of it clear of bone and gas";
     if (window->clear_share < kLeastClear || window->section_share < kLeastSection) {
       made_.notes.push_back("No view '" + chosen->name + "': the best place on the skin shows " + shows + ".");
       return;

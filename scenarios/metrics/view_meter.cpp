@@ -13,10 +13,6 @@
 namespace insonate {
 namespace {
 
-/// Sample distance: model S's default reflection length, so that an interface attenuates here as much as in the
-/// picture.
-constexpr double kSampleDistance_mm = 0.6;
-
 double angle_between_normals_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }

@@ -12,6 +12,10 @@
 
 namespace insonate {
 
+/// Distance of the samples along a scan line: model S's default reflection length, so that an interface attenuates the
+/// sound as much as in the picture.
+inline constexpr double kSampleDistance_mm = 0.6;
+
 /// The values of one picture, compared with a reference view.
 ///
 /// The target point represents what the view shows. It is the mean of the view's landmarks, else the centroid of its

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/metrics/view_meter.h"
+
 namespace insonate {
 namespace {
-
-/// Same sample distance as in ViewMeter: model S's default reflection length.
-constexpr double kSampleDistance_mm = 0.6;
 
 Probe coarse(Probe probe) {
   probe.lines = Visibility::kLines;

@@ -11,7 +11,7 @@
 namespace insonate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 constexpr std::array kFace{"face_x_mm", "face_y_mm", "face_z_mm"};
@@ -47,27 +47,28 @@ void each_list(Visit&& visit) {
 }  // namespace
 
 std::string to_json(std::span<const TracePoint> trace) {
-  Json json = {{"format", kFormat}, {"points", trace.size()}};
+  OrderedJson json = {{"format", kFormat}, {"points", trace.size()}};
   each_list([&](const char* key, bool always, auto&& field) {
-    Json& list = json[key] = Json::array();
-    for (const TracePoint& point : trace) list.push_back(always || point.valid ? Json(field(point)) : Json(nullptr));
+    OrderedJson& list = json[key] = OrderedJson::array();
+    for (const TracePoint& point : trace)
+      list.push_back(always || point.valid ? OrderedJson(field(point)) : OrderedJson(nullptr));
   });
   return json.dump() + "\n";
 }
 
 std::vector<TracePoint> trace_from_json(std::string_view text, const std::string& name) {
   try {
-    const Json json = Json::parse(text);
+    const OrderedJson json = OrderedJson::parse(text);
     if (json.at("format") != kFormat) throw std::runtime_error("a format that this program does not read");
     std::vector<TracePoint> trace(json.at("time_s").size());
     each_list([&](const char* key, bool, auto&& field) {
-      const Json& list = json.at(key);
+      const OrderedJson& list = json.at(key);
       if (!list.is_array() || list.size() != trace.size()) throw std::runtime_error("lists of different lengths");
       for (std::size_t i = 0; i < trace.size(); ++i)
         if (!list[i].is_null()) read_value(list[i], field(trace[i]));
     });
     return trace;
-  } catch (const Json::exception& error) {
+  } catch (const OrderedJson::exception& error) {
     refuse(name, json_problem(error, text));
   } catch (const std::runtime_error& error) {
     refuse(name, error.what());

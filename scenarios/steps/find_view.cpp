@@ -45,9 +45,9 @@ void add(ViewValues& sum, const ViewValues& view, double weight) {
   for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
 }
 
-class Run : public StepRun {
+class FindViewRun : public StepRun {
 public:
-  explicit Run(const FindView& asked) : asked_(asked) {}
+  explicit FindViewRun(const FindView& asked) : asked_(asked) {}
 
   void see(const Moment& moment) override {
     const double now = moment.now_s;
@@ -151,7 +151,7 @@ void FindView::check(const Step& step, const LabelIndex& labels, const std::stri
 }
 
 StepBegin FindView::prepare(const StepWorld&) const {
-  return [this](double) { return std::make_unique<Run>(*this); };
+  return [this](double) { return std::make_unique<FindViewRun>(*this); };
 }
 
 }  // namespace insonate

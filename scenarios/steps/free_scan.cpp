@@ -3,7 +3,7 @@
 namespace insonate {
 namespace {
 
-class Run : public StepRun {
+class FreeScanRun : public StepRun {
 public:
   bool counts_as_done() const override { return true; }
   void finish(StepOutcome, double, StepResult&) const override {}
@@ -16,7 +16,7 @@ std::shared_ptr<const StepTask> FreeScan::read(const TomlTable&, const Step&) {
 }
 
 StepBegin FreeScan::prepare(const StepWorld&) const {
-  return [](double) { return std::make_unique<Run>(); };
+  return [](double) { return std::make_unique<FreeScanRun>(); };
 }
 
 }  // namespace insonate

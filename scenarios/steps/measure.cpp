@@ -76,9 +76,10 @@ Truth truth_of(const Measure& asked, const Step& step, const LabelIndex& labels)
   return truth;
 }
 
-class Run : public StepRun {
+class MeasureRun : public StepRun {
 public:
-  Run(const Measure& asked, const ViewMeter* meter, const Truth& truth) : asked_(asked), meter_(meter), truth_(truth) {}
+  MeasureRun(const Measure& asked, const ViewMeter* meter, const Truth& truth)
+      : asked_(asked), meter_(meter), truth_(truth) {}
 
   void act(const Action& action, const Moment& moment) override {
     const bool has_slot = action.slot() >= 1 && action.slot() <= asked_.slots();
@@ -269,7 +270,7 @@ void Measure::check(const Step& step, const LabelIndex& labels, const std::strin
 
 StepBegin Measure::prepare(const StepWorld& world) const {
   return [this, meter = world.meter, truth = truth_of(*this, world.step, world.labels)](double) {
-    return std::make_unique<Run>(*this, meter, truth);
+    return std::make_unique<MeasureRun>(*this, meter, truth);
   };
 }
 

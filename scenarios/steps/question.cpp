@@ -12,9 +12,9 @@
 namespace insonate {
 namespace {
 
-class Run : public StepRun {
+class QuestionRun : public StepRun {
 public:
-  Run(const Question& asked, const LabelIndex& labels) : asked_(asked) {
+  QuestionRun(const Question& asked, const LabelIndex& labels) : asked_(asked) {
     right_ = asked.right;
     if (!asked.findings.empty())
       right_ = StructureSet(labels, asked.findings).any_voxel() ? asked.if_present : asked.if_absent;
@@ -99,7 +99,7 @@ void Question::check(const Step&, const LabelIndex& labels, const std::string& w
 }
 
 StepBegin Question::prepare(const StepWorld& world) const {
-  return [this, &labels = world.labels](double) { return std::make_unique<Run>(*this, labels); };
+  return [this, &labels = world.labels](double) { return std::make_unique<QuestionRun>(*this, labels); };
 }
 
 }  // namespace insonate

@@ -11,9 +11,9 @@
 namespace insonate {
 namespace {
 
-class Run : public StepRun {
+class SetKnobsRun : public StepRun {
 public:
-  Run(const SetKnobs& asked, double now_s) : asked_(asked), wrong_until_s_(now_s) {}
+  SetKnobsRun(const SetKnobs& asked, double now_s) : asked_(asked), wrong_until_s_(now_s) {}
 
   void see(const Moment& moment) override {
     right_percent_ = right_percent(moment.machine);
@@ -97,7 +97,7 @@ StepInput SetKnobs::input() const {
 }
 
 StepBegin SetKnobs::prepare(const StepWorld&) const {
-  return [this](double now_s) { return std::make_unique<Run>(*this, now_s); };
+  return [this](double now_s) { return std::make_unique<SetKnobsRun>(*this, now_s); };
 }
 
 }  // namespace insonate

@@ -31,9 +31,9 @@ std::vector<glm::dvec3> cells_of(const LabelIndex& index, const std::vector<std:
   return cells;
 }
 
-class Run : public StepRun {
+class SweepRun : public StepRun {
 public:
-  Run(const Sweep& asked, const StepWorld& world, const std::vector<glm::dvec3>& cells, double now_s)
+  SweepRun(const Sweep& asked, const StepWorld& world, const std::vector<glm::dvec3>& cells, double now_s)
       : asked_(asked), world_(world), path_(now_s), cells_(cells), total_(cells.size()) {
     for (const std::string& name : asked.keep) landmarks_.push_back(world.subject.find_landmark(name)->position);
   }
@@ -124,7 +124,7 @@ void Sweep::check(const Step&, const LabelIndex& labels, const std::string& wher
 
 StepBegin Sweep::prepare(const StepWorld& world) const {
   return [this, world, cells = cells_of(world.labels, organ)](double now_s) {
-    return std::make_unique<Run>(*this, world, cells, now_s);
+    return std::make_unique<SweepRun>(*this, world, cells, now_s);
   };
 }
 

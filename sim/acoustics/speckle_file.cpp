@@ -20,7 +20,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t(16) << 30;
+constexpr std::size_t kLargestSpeckleFile = std::size_t(16) << 30;
 constexpr const char* kMakeIt = "compute one with insonate-case speckle";
 
 std::string number(double value) {
@@ -129,7 +129,7 @@ bool is_speckle_file(const std::filesystem::path& file, const std::string& heade
 }
 
 Volume<float> read_speckle_file(const std::filesystem::path& file, const SpeckleKey& expected) {
-  const std::string bytes = read_file(file, kLargestFile), name = file.string();
+  const std::string bytes = read_file(file, kLargestSpeckleFile), name = file.string();
   const Header header = header_of(bytes, name);
   const auto key = [&](const char* of) {
     const auto found = header.keys.find(of);

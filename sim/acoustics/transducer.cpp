@@ -13,7 +13,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kLargestFile = 1u << 16;
+constexpr std::size_t kLargestTransducerFile = 1u << 16;
 constexpr int kMostElements = 1024;
 
 // In the order of ProbeKind.
@@ -29,7 +29,7 @@ ElementPlace place_on_face(const Transducer& transducer, double along_mm) {
 }  // namespace
 
 Transducer read_transducer(const std::filesystem::path& toml_file) {
-  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestFile), OnMistake::collect);
+  const TomlDocument document(toml_file.string(), read_file(toml_file, kLargestTransducerFile), OnMistake::collect);
   const TomlTable root = document.root();
   Transducer transducer;
   transducer.name = root.text("name");

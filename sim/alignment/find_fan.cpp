@@ -37,7 +37,7 @@ struct Box {
   double left, right, top, bottom;  // pixels, outer edges
 };
 
-double entropy(double share) {
+double binary_entropy(double share) {
   if (share <= 0 || share >= 1) return 0;
   return -share * std::log(share) - (1 - share) * std::log(1 - share);
 }
@@ -86,9 +86,9 @@ public:
     const Inside in = inside(fan);
     const double out = all - in.pixels;
     if (in.pixels <= 0 || out <= 0) return 0;
-    const double before = all * entropy(double(echo_) / all);
-    const double after =
-        in.pixels * entropy(in.echo / in.pixels) + out * entropy(std::clamp((double(echo_) - in.echo) / out, 0.0, 1.0));
+    const double before = all * binary_entropy(double(echo_) / all);
+    const double after = in.pixels * binary_entropy(in.echo / in.pixels) +
+                         out * binary_entropy(std::clamp((double(echo_) - in.echo) / out, 0.0, 1.0));
     return before > 0 ? 1 - after / before : 0;
   }
 

@@ -10,7 +10,7 @@ namespace insonate {
 namespace {
 
 // MetaIO's names (metaTypes.h). A long has 4 bytes on every machine.
-constexpr std::pair<std::string_view, ElementType> kTypes[] = {
+constexpr std::pair<std::string_view, ElementType> kMetaTypes[] = {
     {"MET_CHAR", ElementType::int8},         {"MET_UCHAR", ElementType::uint8},   {"MET_SHORT", ElementType::int16},
     {"MET_USHORT", ElementType::uint16},     {"MET_INT", ElementType::int32},     {"MET_UINT", ElementType::uint32},
     {"MET_LONG", ElementType::int32},        {"MET_ULONG", ElementType::uint32},  {"MET_LONG_LONG", ElementType::int64},
@@ -42,7 +42,7 @@ bool metaimage_flag(const std::string& file, std::string_view name, std::string_
 }
 
 std::optional<ElementType> metaimage_type(std::string_view name) {
-  for (const auto& [known, type] : kTypes)
+  for (const auto& [known, type] : kMetaTypes)
     if (known == name) return type;
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace insonate {
 namespace {
 
 // All names that the format defines.
-constexpr std::pair<ElementType, std::array<std::string_view, 7>> kTypes[] = {
+constexpr std::pair<ElementType, std::array<std::string_view, 7>> kNrrdTypes[] = {
     {ElementType::int8, {"signed char", "int8", "int8_t"}},
     {ElementType::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
     {ElementType::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
@@ -66,7 +66,7 @@ bool is_nrrd_data_file(std::string_view name) {
 }
 
 std::optional<ElementType> nrrd_type(std::string_view name) {
-  for (const auto& [type, all] : kTypes)
+  for (const auto& [type, all] : kNrrdTypes)
     for (const std::string_view known : all)
       if (!known.empty() && same_ignoring_case(known, name)) return type;
   return std::nullopt;

@@ -9,7 +9,7 @@ namespace {
 
 /// Returns a switch of one setting.
 template <bool Settings::*kMember>
-constexpr Effect flag(std::string_view name) {
+constexpr Effect flag_effect(std::string_view name) {
   return {name,
           0,
           1,
@@ -19,7 +19,7 @@ constexpr Effect flag(std::string_view name) {
 }
 
 template <double Settings::*kMember>
-constexpr Effect number(std::string_view name, double least, double most) {
+constexpr Effect number_effect(std::string_view name, double least, double most) {
   return {name,
           least,
           most,
@@ -30,7 +30,7 @@ constexpr Effect number(std::string_view name, double least, double most) {
 
 /// Returns a switch of a setting that is off at 0 and otherwise has a strength.
 template <double Settings::*kMember>
-constexpr Effect strength(std::string_view name) {
+constexpr Effect strength_effect(std::string_view name) {
   return {name,
           0,
           1,
@@ -42,28 +42,28 @@ constexpr Effect strength(std::string_view name) {
 }
 
 constexpr std::array kEffects{
-    flag<&Settings::absorption>("absorption"),
+    flag_effect<&Settings::absorption>("absorption"),
     Effect{"waves", 0, 1, true, [](const Settings& s) { return double(s.waves); },
            [](Settings& s, double on) {
              if (on != 0) return;
              s.waves = false;
              s.transmission_sigma_mm = 1;  // the paper's sums need smoothing, (6)
            }},
-    flag<&Settings::speckle>("speckle"),
-    flag<&Settings::focused_beam>("focused_beam"),
+    flag_effect<&Settings::speckle>("speckle"),
+    flag_effect<&Settings::focused_beam>("focused_beam"),
     Effect{"slice_thickness", 0, 1, true, [](const Settings& s) { return double(s.slice_planes > 1); },
            [](Settings& s, double on) {
              if (on == 0) s.slice_planes = 1;
            }},
-    flag<&Settings::reverberation>("reverberation"),
-    strength<&Settings::face_reflection>("face_reverberation"),
-    strength<&Settings::mirror_image>("mirror_image"),
-    flag<&Settings::edge_shadow>("edge_shadow"),
-    flag<&Settings::clutter>("clutter"),
-    flag<&Settings::electronic_noise>("noise"),
-    flag<&Settings::two_way>("two_way"),
-    number<&Settings::focus_mm>("focus_mm", 10, 240),
-    number<&Settings::f_number>("f_number", 1, 10),
+    flag_effect<&Settings::reverberation>("reverberation"),
+    strength_effect<&Settings::face_reflection>("face_reverberation"),
+    strength_effect<&Settings::mirror_image>("mirror_image"),
+    flag_effect<&Settings::edge_shadow>("edge_shadow"),
+    flag_effect<&Settings::clutter>("clutter"),
+    flag_effect<&Settings::electronic_noise>("noise"),
+    flag_effect<&Settings::two_way>("two_way"),
+    number_effect<&Settings::focus_mm>("focus_mm", 10, 240),
+    number_effect<&Settings::f_number>("f_number", 1, 10),
     Effect{"scattering_db", -20, 20, false,
            [](const Settings& s) { return 10 * std::log10(s.blend / Settings().blend); },
            [](Settings& s, double db) { s.blend = Settings().blend * std::pow(10.0, db / 10); }},

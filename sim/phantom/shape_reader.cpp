@@ -9,7 +9,6 @@
 namespace insonate {
 namespace {
 
-constexpr double kFar_mm = 2000;  // no coordinate in a patient is larger
 constexpr double kThin_mm = 0.2;  // anything thinner is invisible at any voxel size
 
 }  // namespace
@@ -87,16 +86,17 @@ ShapePtr ShapeReader::solid(const TomlTable& table, const std::string& name) {
     return shapes;
   };
   if (kind == "ellipsoid")
-    return make_ellipsoid(table.vector("centre", {-kFar_mm, kFar_mm}), table.vector("radii", {kThin_mm, kFar_mm}));
+    return make_ellipsoid(table.vector("centre", {-kFarthest_mm, kFarthest_mm}),
+                          table.vector("radii", {kThin_mm, kFarthest_mm}));
   if (kind == "box") {
-    const glm::dvec3 half = table.vector("half_sizes", {kThin_mm, kFar_mm});
+    const glm::dvec3 half = table.vector("half_sizes", {kThin_mm, kFarthest_mm});
     const double rounding = table.number("rounding_mm", {0, std::min({half.x, half.y, half.z})}, 0);
-    return make_box(table.vector("centre", {-kFar_mm, kFar_mm}), half, float(rounding));
+    return make_box(table.vector("centre", {-kFarthest_mm, kFarthest_mm}), half, float(rounding));
   }
   if (kind == "half_space") {
-    const glm::dvec3 normal = table.vector("normal", {-kFar_mm, kFar_mm});
+    const glm::dvec3 normal = table.vector("normal", {-kFarthest_mm, kFarthest_mm});
     if (glm::length(normal) < 1e-6) table.fail("normal", "'normal' has no length", "give it a direction");
-    return make_half_space(table.vector("point", {-kFar_mm, kFar_mm}), normal);
+    return make_half_space(table.vector("point", {-kFarthest_mm, kFarthest_mm}), normal);
   }
   if (kind == "tube") return tube(table, name);
   if (kind == "tree") return tree(table, name);
@@ -114,7 +114,7 @@ ShapePtr ShapeReader::solid(const TomlTable& table, const std::string& name) {
   }
   if (kind == "copy") {
     Frame shift;
-    shift.origin = table.vector("shift", {-kFar_mm, kFar_mm}, glm::dvec3(0.0));
+    shift.origin = table.vector("shift", {-kFarthest_mm, kFarthest_mm}, glm::dvec3(0.0));
     return make_placed(part(table, "of"), shift);
   }
   table.fail("kind", "there is no kind '" + kind + "'",
@@ -136,7 +136,7 @@ ShapePtr ShapeReader::tube(const TomlTable& table, const std::string& name) {
   const double radius = table.number("radius_mm", {kThin_mm, 500}, 0);
   std::vector<TubePoint> points;
   bool is_flat = form.flatness < 1;
-  for (const std::vector<double>& row : table.rows("points", 2, radius > 0 ? 3 : 4, 5, {-kFar_mm, kFar_mm})) {
+  for (const std::vector<double>& row : table.rows("points", 2, radius > 0 ? 3 : 4, 5, {-kFarthest_mm, kFarthest_mm})) {
     const double own = row.size() > 3 ? row[3] : radius, flatness = row.size() > 4 ? row[4] : 1;
     if (own < kThin_mm || own > 500)
       table.fail("points", "a point's radius is " + std::to_string(own) + " mm", "give it 0.2 to 500 mm");
@@ -145,7 +145,7 @@ ShapePtr ShapeReader::tube(const TomlTable& table, const std::string& name) {
     is_flat = is_flat || flatness < 1;
     points.push_back({glm::vec3(row[0], row[1], row[2]), float(own), float(flatness)});
   }
-  if (is_flat) form.flat_towards = table.vector("flat_towards", {-kFar_mm, kFar_mm});
+  if (is_flat) form.flat_towards = table.vector("flat_towards", {-kFarthest_mm, kFarthest_mm});
   strands_[name] = {centre_line(points, form)};
   return make_tubes(strands_[name], form);
 }
@@ -160,7 +160,7 @@ ShapePtr ShapeReader::rib(const TomlTable& table) {
   const auto inset = float(table.number("inset_mm", {-50, 200}, 0));
   std::vector<TubePoint> points;
   float z_sum = 0;
-  for (const std::vector<double>& row : table.rows("stations", 2, 2, 3, {-kFar_mm, kFar_mm})) {
+  for (const std::vector<double>& row : table.rows("stations", 2, 2, 3, {-kFarthest_mm, kFarthest_mm})) {
     const float own_inset = row.size() == 3 ? inset + float(row[2]) : inset;
     points.push_back({wall.outline_point(float(row[0]), float(row[1]), own_inset), radius});
     z_sum += float(row[1]);
@@ -174,7 +174,7 @@ ShapePtr ShapeReader::rib(const TomlTable& table) {
 ShapePtr ShapeReader::loft(const TomlTable& table, const std::string& name) {
   LoftForm form;
   form.squareness = float(table.number("squareness", {1.5, 8}, 2));
-  for (const std::vector<double>& row : table.rows("sections", 2, 6, 6, {-kFar_mm, kFar_mm})) {
+  for (const std::vector<double>& row : table.rows("sections", 2, 6, 6, {-kFarthest_mm, kFarthest_mm})) {
     if (row[3] < kThin_mm || row[4] < kThin_mm || row[5] < kThin_mm)
       table.fail("sections", "a section's half width, front or back is below 0.2 mm", "make it wider");
     if (!form.sections.empty() && row[0] <= form.sections.back().z)

@@ -12,6 +12,9 @@
 
 namespace insonate {
 
+/// No coordinate in a patient is larger.
+inline constexpr double kFarthest_mm = 2000;
+
 /// Converts a recipe's `shapes` tables into shapes, in their order. A shape can refer to those before it.
 class ShapeReader {
 public:

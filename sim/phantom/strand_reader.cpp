@@ -8,12 +8,6 @@
 // The shapes and textures of a recipe that follow lines: trees, companions, spokes and septa.
 
 namespace insonate {
-namespace {
-
-constexpr double kFar_mm = 2000;  // no coordinate in a patient is larger
-
-}  // namespace
-
 const std::vector<Strand>& ShapeReader::strands(const TomlTable& table, const std::string& key,
                                                 const std::string& name) const {
   const auto found = strands_.find(name);
@@ -47,16 +41,16 @@ ShapePtr ShapeReader::companion(const TomlTable& table, const std::string& name)
   rule.least_radius_mm = float(table.number("least_mm", {0.2, 50}));
   rule.most_radius_mm = float(table.number("most_mm", {0.2, 50}, 50));
   rule.gap_mm = float(table.number("beside_mm", {0, 50}, 0.5));
-  rule.towards = table.vector("towards", {-kFar_mm, kFar_mm});
+  rule.towards = table.vector("towards", {-kFarthest_mm, kFarthest_mm});
   strands_[name] = companions(strands(table, "of", table.text("of")), rule);
   return make_tubes(strands_[name]);
 }
 
 ShapePtr ShapeReader::spokes_of(const TomlTable& table, const std::string& name) {
   SpokesForm form;
-  form.centre = table.vector("centre", {-kFar_mm, kFar_mm});
-  form.inner = table.vector("inner", {0, kFar_mm});
-  form.outer = table.vector("outer", {0, kFar_mm});
+  form.centre = table.vector("centre", {-kFarthest_mm, kFarthest_mm});
+  form.inner = table.vector("inner", {0, kFarthest_mm});
+  form.outer = table.vector("outer", {0, kFarthest_mm});
   form.count = int(table.whole_number("count", 1, 200));
   form.inner_mm = float(table.number("inner_mm", {0.2, 500}));
   form.outer_mm = float(table.number("outer_mm", {0.2, 500}));

@@ -20,8 +20,6 @@
 namespace insonate {
 namespace {
 
-constexpr int kLabels = 256;
-
 std::int16_t centidecibel(double db) {
   return std::int16_t(std::lround(db * 100));
 }
@@ -59,22 +57,22 @@ std::vector<std::int16_t> tabulate(const TissueTable& table) {
 }
 
 /// Returns the mean density per label value. The sums are of integers, so they do not depend on the order of threads.
-std::array<double, kLabels> mean_densities(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels) {
-  std::array<std::atomic<std::int64_t>, kLabels> sums{}, counts{};
+std::array<double, kLabelValues> mean_densities(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels) {
+  std::array<std::atomic<std::int64_t>, kLabelValues> sums{}, counts{};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ct.voxels.size(), 1u << 18), [&](const auto& range) {
-    std::array<std::int64_t, kLabels> sum{}, count{};
+    std::array<std::int64_t, kLabelValues> sum{}, count{};
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       sum[labels.voxels[v]] += ct.voxels[v];
       ++count[labels.voxels[v]];
     }
-    for (int l = 0; l < kLabels; ++l)
+    for (int l = 0; l < kLabelValues; ++l)
       if (count[std::size_t(l)]) {
         sums[std::size_t(l)] += sum[std::size_t(l)];
         counts[std::size_t(l)] += count[std::size_t(l)];
       }
   });
-  std::array<double, kLabels> means{};
-  for (std::size_t l = 0; l < kLabels; ++l) means[l] = counts[l] ? double(sums[l]) / double(counts[l]) : 0;
+  std::array<double, kLabelValues> means{};
+  for (std::size_t l = 0; l < kLabelValues; ++l) means[l] = counts[l] ? double(sums[l]) / double(counts[l]) : 0;
   return means;
 }
 
@@ -153,9 +151,9 @@ private:
   std::vector<std::int16_t> by_hu_;
   int densest_air_;
   glm::ivec3 reach_{1};
-  std::array<double, kLabels> means_{};
-  std::array<double, kLabels> tissue_db_{};
-  std::array<bool, kLabels> has_tissue_{};
+  std::array<double, kLabelValues> means_{};
+  std::array<double, kLabelValues> tissue_db_{};
+  std::array<bool, kLabelValues> has_tissue_{};
 };
 
 AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
@@ -205,7 +203,7 @@ AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume
                                     bool structure) {
   if (!labels.empty() && labels.grid.size != ct.grid.size)
     throw std::invalid_argument("make_acoustic_volume: the labels are on another grid than the CT");
-  if (tissue_of.size() > kLabels) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
+  if (tissue_of.size() > kLabelValues) throw std::invalid_argument("make_acoustic_volume: more than 256 label values");
   const auto made_of = [&](const Volume<std::int16_t>& densities) {
     AcousticVolume acoustic = acoustic_volume_of(densities, labels, tissue_of, table);
     if (structure) add_structure(acoustic, tissue_structure_cdb(densities, labels, tissue_of, table));

@@ -20,7 +20,6 @@
 namespace insonate {
 namespace {
 
-constexpr int kLabels = 256;
 constexpr int kStructures = int(Structure::sinus) + 1;
 
 /// Scalars on a box of voxels, i fastest.
@@ -223,7 +222,7 @@ struct LabelBox {
 /// How far the voxels of a sinus lie from the kidney's parenchyma, mm.
 class SinusRim {
 public:
-  SinusRim(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabels>& structure_of)
+  SinusRim(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabelValues>& structure_of)
       : box_(labels, label), from_parenchyma_(box_.size) {
     Field parenchyma(box_.size);
     for (int z = 0; z < box_.size.z; ++z)
@@ -245,7 +244,7 @@ private:
 /// The pyramids of one kidney: where a voxel lies between sinus and capsule, and the nearest point of the sinus.
 class Pyramids {
 public:
-  Pyramids(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabels>& structure_of)
+  Pyramids(const Volume<std::uint8_t>& labels, int label, const std::array<Structure, kLabelValues>& structure_of)
       : grid_(labels.grid), from_sinus_(glm::ivec3(0)), from_capsule_(glm::ivec3(0)) {
     const LabelBox box(labels, label);
     low_ = box.low;
@@ -490,9 +489,9 @@ Shares shares_of(float hu, float depth_mm, float soft_share, bool has_labels) {
   return shares;
 }
 
-std::array<Structure, kLabels> structures_of(const std::vector<std::string>& tissue_of, const TissueTable& table) {
-  std::array<Structure, kLabels> structures{};
-  for (std::size_t label = 1; label < std::min(tissue_of.size(), std::size_t(kLabels)); ++label)
+std::array<Structure, kLabelValues> structures_of(const std::vector<std::string>& tissue_of, const TissueTable& table) {
+  std::array<Structure, kLabelValues> structures{};
+  for (std::size_t label = 1; label < std::min(tissue_of.size(), std::size_t(kLabelValues)); ++label)
     if (const auto known = table.labelled.find(tissue_of[label]); known != table.labelled.end())
       structures[label] = known->second.structure;
   return structures;
@@ -501,22 +500,22 @@ std::array<Structure, kLabels> structures_of(const std::vector<std::string>& tis
 /// Shifts the voxels of each label that has a tissue so that their mean is 0. The sums are of integers, so they do not
 /// depend on the order of threads.
 void centre_labels(std::vector<std::int16_t>& cdb, const Volume<std::uint8_t>& labels,
-                   const std::array<Structure, kLabels>& structure_of) {
-  std::array<std::atomic<std::int64_t>, kLabels> sums{}, counts{};
+                   const std::array<Structure, kLabelValues>& structure_of) {
+  std::array<std::atomic<std::int64_t>, kLabelValues> sums{}, counts{};
   const tbb::blocked_range<std::size_t> all(0, cdb.size(), 1u << 18);
   tbb::parallel_for(all, [&](const auto& range) {
-    std::array<std::int64_t, kLabels> sum{}, count{};
+    std::array<std::int64_t, kLabelValues> sum{}, count{};
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       sum[labels.voxels[v]] += cdb[v];
       ++count[labels.voxels[v]];
     }
-    for (std::size_t l = 0; l < kLabels; ++l) {
+    for (std::size_t l = 0; l < kLabelValues; ++l) {
       sums[l] += sum[l];
       counts[l] += count[l];
     }
   });
-  std::array<int, kLabels> shift{};
-  for (std::size_t l = 1; l < kLabels; ++l)
+  std::array<int, kLabelValues> shift{};
+  for (std::size_t l = 1; l < kLabelValues; ++l)
     if (structure_of[l] != Structure::none && counts[l] > 0)
       shift[l] = int(std::lround(double(sums[l]) / double(counts[l])));
   constexpr int kMost = int(kMostStructureDb * 100);
@@ -538,20 +537,20 @@ std::vector<std::int16_t> tissue_structure_cdb(const Volume<std::int16_t>& ct, c
 
   const Surroundings surroundings(ct);
   const Formulas formulas(seed, float(largest_mm));
-  const std::array<Structure, kLabels> structure_of = structures_of(tissue_of, table);
+  const std::array<Structure, kLabelValues> structure_of = structures_of(tissue_of, table);
   const bool has_medulla =
       std::find(structure_of.begin(), structure_of.end(), Structure::medulla) != structure_of.end();
-  std::array<std::optional<Pyramids>, kLabels> pyramids;
+  std::array<std::optional<Pyramids>, kLabelValues> pyramids;
   if (!labels.empty() && !has_medulla)
-    for (int l = 1; l < kLabels; ++l)
+    for (int l = 1; l < kLabelValues; ++l)
       if (structure_of[std::size_t(l)] == Structure::kidney) {
         Pyramids found(labels, l, structure_of);
         if (found.exist()) pyramids[std::size_t(l)] = std::move(found);
       }
 
-  std::array<std::optional<SinusRim>, kLabels> rims;
+  std::array<std::optional<SinusRim>, kLabelValues> rims;
   if (!labels.empty())
-    for (int l = 1; l < kLabels; ++l)
+    for (int l = 1; l < kLabelValues; ++l)
       if (structure_of[std::size_t(l)] == Structure::sinus) rims[std::size_t(l)].emplace(labels, l, structure_of);
 
   const std::size_t in_slice = std::size_t(grid.size.x) * std::size_t(grid.size.y);

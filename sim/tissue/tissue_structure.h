@@ -57,6 +57,9 @@
 /// size that a beam of 1 to 2 mm tells apart.
 namespace insonate {
 
+/// A label is a number of 8 bits.
+inline constexpr int kLabelValues = 256;
+
 /// Structure is bounded: no voxel is shifted by more, dB.
 inline constexpr double kMostStructureDb = 8;
 

@@ -9,14 +9,14 @@
 namespace insonate::view {
 namespace {
 
-struct Box {
+struct PatientBox {
   glm::dvec3 low, high;
 };
 
 /// Returns the box along the patient's axes around all of a volume's voxels, mm.
-Box box_around(const Grid& volume) {
+PatientBox box_around(const Grid& volume) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  Box box{glm::dvec3(kFar), glm::dvec3(-kFar)};
+  PatientBox box{glm::dvec3(kFar), glm::dvec3(-kFar)};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
     const glm::dvec3 p = volume.patient_from_index(at * glm::dvec3(volume.size) - 0.5);
@@ -47,7 +47,7 @@ int normal_axis(SliceAxis axis) {
 }
 
 AxisSlice AxisSlice::fitting(SliceAxis axis, const Grid& volume, const glm::dvec3& through, int width, int height) {
-  const Box box = box_around(volume);
+  const PatientBox box = box_around(volume);
   AxisSlice slice;
   slice.axis = axis;
   slice.middle = (box.low + box.high) / 2.0;

@@ -32,10 +32,10 @@ MprParameters parameters_for(const Grid& grid, const MprPicture& picture) {
   return p;
 }
 
-struct Inputs {
+struct MprInputs {
   GLuint volume;
   MprPicture picture;
-  bool operator==(const Inputs&) const = default;
+  bool operator==(const MprInputs&) const = default;
 };
 
 }  // namespace
@@ -60,7 +60,7 @@ struct MprView::State {
   gl::FullScreenTriangle triangle;
   gl::StreamedBuffer parameters;
   PictureTarget target;
-  std::optional<Inputs> drawn;
+  std::optional<MprInputs> drawn;
   long renders = 0;
 };
 
@@ -71,7 +71,7 @@ MprView& MprView::operator=(MprView&&) noexcept = default;
 
 const gl::Texture& MprView::render(const SweptTexture& volume, const MprPicture& picture) {
   State& s = *state_;
-  const Inputs inputs{volume.texture().name(), picture};
+  const MprInputs inputs{volume.texture().name(), picture};
   if (s.drawn == inputs) return s.target.texture;
   s.target.resize(picture.width, picture.height);
   const MprParameters parameters = parameters_for(volume.grid(), picture);

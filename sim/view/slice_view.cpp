@@ -26,11 +26,11 @@ glm::dmat4 plane_from_pixel(const ImageGeometry& ultrasound, const glm::ivec2& s
   return m;
 }
 
-struct Inputs {
+struct SliceInputs {
   const PatientTextures* patient;
   PlaneState plane;
   SliceStyle style;
-  bool operator==(const Inputs&) const = default;
+  bool operator==(const SliceInputs&) const = default;
 };
 
 }  // namespace
@@ -39,7 +39,7 @@ struct SliceView::State {
   explicit State(const gl::ShaderSources& sources) : painter(sources) {}
 
   SlicePainter painter;
-  std::optional<Inputs> drawn;
+  std::optional<SliceInputs> drawn;
 };
 
 SliceView::SliceView(const gl::ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
@@ -50,7 +50,7 @@ SliceView& SliceView::operator=(SliceView&&) noexcept = default;
 const gl::Texture& SliceView::render(const PatientTextures& patient, const UltrasoundPlane& plane,
                                      const SliceStyle& style) {
   State& s = *state_;
-  Inputs inputs{&patient, PlaneState(plane), style};
+  SliceInputs inputs{&patient, PlaneState(plane), style};
   if (s.drawn == inputs) return s.painter.picture();
   const glm::ivec2 size = size_of(plane.geometry, style.scale);
   s.painter.draw(patient, plane.patient_from_probe.matrix() * plane_from_pixel(plane.geometry, size), size, style,

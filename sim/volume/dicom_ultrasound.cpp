@@ -31,7 +31,7 @@ constexpr std::size_t kMostFrames = 100000;
 constexpr int kSpatialFormat2d = 1, kDataTypeTissue = 1, kUnitsCm = 3;
 constexpr double kLeastPixel_mm = 0.001, kMostPixel_mm = 10;
 
-const char* const kExportAgain = "export the clip again";
+const char* const kExportClipAgain = "export the clip again";
 
 void silence() {
   gdcm::Trace::DebugOff();
@@ -39,8 +39,8 @@ void silence() {
   gdcm::Trace::ErrorOff();
 }
 
-[[noreturn]] void refuse_as_damaged(const fs::path& file) {
-  throw InputError(file.string(), "", "the DICOM file is damaged or cut off", kExportAgain);
+[[noreturn]] void refuse_damaged_clip(const fs::path& file) {
+  throw InputError(file.string(), "", "the DICOM file is damaged or cut off", kExportClipAgain);
 }
 
 // Runs `work` in a subprocess, since a damaged file can end it.
@@ -54,7 +54,7 @@ std::string guarded(const fs::path& file, const std::function<std::string()>& wo
       return work();
     });
   } catch (const SubprocessDied&) {
-    refuse_as_damaged(file);
+    refuse_damaged_clip(file);
   }
 }
 
@@ -107,7 +107,8 @@ DicomUltrasound clip_of(const fs::path& file, const gdcm::File& dicom) {
   if (clip.width < 2 || clip.height < 2 || clip.width > kMostPixelsASide || clip.height > kMostPixelsASide ||
       frames < 1 || std::size_t(frames) > kMostFrames)
     throw InputError(file.string(), "header",
-                     formatted("it claims %d images of %d x %d pixels", frames, clip.width, clip.height), kExportAgain);
+                     formatted("it claims %d images of %d x %d pixels", frames, clip.width, clip.height),
+                     kExportClipAgain);
   clip.frames = std::size_t(frames);
   const gdcm::Tag regions(0x0018, 0x6011);
   if (!header.FindDataElement(regions)) return clip;
@@ -129,7 +130,7 @@ std::uint8_t luminance(const char* at, std::size_t apart) {
 std::string decoded(const fs::path& file, const std::vector<std::size_t>& numbers) {
   gdcm::ImageReader reader;
   reader.SetFileName(file.c_str());
-  if (!reader.Read()) refuse_as_damaged(file);
+  if (!reader.Read()) refuse_damaged_clip(file);
   const DicomUltrasound clip = clip_of(file, reader.GetFile());
   const gdcm::Image& image = reader.GetImage();
   const auto refuse_kind = [&](const std::string& what) {
@@ -152,7 +153,7 @@ std::string decoded(const fs::path& file, const std::vector<std::size_t>& number
   if (const auto& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax(); !syntax.IsEncapsulated())
     check_raw_pixels(file, of_image * samples * clip.frames, syntax == gdcm::TransferSyntax::ExplicitVRBigEndian);
   std::string bytes(of_image * samples * clip.frames, '\0');
-  if (image.GetBufferLength() != bytes.size() || !image.GetBuffer(bytes.data())) refuse_as_damaged(file);
+  if (image.GetBufferLength() != bytes.size() || !image.GetBuffer(bytes.data())) refuse_damaged_clip(file);
   const bool by_planes = samples == 3 && image.GetPlanarConfiguration() == 1;
   const std::size_t step = by_planes ? 1 : samples, apart = by_planes ? of_image : 1;
   std::string grey;
@@ -173,7 +174,7 @@ DicomUltrasound read_dicom_ultrasound(const fs::path& file) {
   const std::string bytes = guarded(file, [&] {
     gdcm::Reader reader;
     reader.SetFileName(file.c_str());
-    if (!reader.Read()) refuse_as_damaged(file);
+    if (!reader.Read()) refuse_damaged_clip(file);
     const DicomUltrasound clip = clip_of(file, reader.GetFile());
     return std::string(reinterpret_cast<const char*>(&clip), sizeof clip);
   });

@@ -28,10 +28,6 @@ constexpr double kLengthTolerance = 1e-3, kAngleTolerance = 1e-4;
 // A quaternion is stored in single precision.
 constexpr double kQuaternionTolerance = 1e-3;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& remedy) {
-  throw InputError(file.string(), "header", problem, remedy);
-}
-
 struct Nifti {
   std::size_t header_bytes = 0;
   bool big_endian = false;
@@ -120,15 +116,15 @@ ElementType type_of(const fs::path& file, int datatype) {
       {1024, ElementType::int64}, {1280, ElementType::uint64}};
   const auto known = types.find(datatype);
   if (known == types.end())
-    refuse(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", not one number per voxel",
-           "save it with one integer or float a voxel");
+    refuse_header(file, "the voxels have NIfTI's data type " + std::to_string(datatype) + ", not one number per voxel",
+                  "save it with one integer or float a voxel");
   return known->second;
 }
 
 /// Refuses a number that is not finite or beyond 1 km.
 void check_reach(const fs::path& file, const std::string& what, double number) {
   if (!(std::abs(number) <= kFurthestOriginMm))
-    refuse(file, "the " + what + " holds " + number_text(number) + ", further than 1 km", "correct it");
+    refuse_header(file, "the " + what + " holds " + number_text(number) + ", further than 1 km", "correct it");
 }
 
 /// Returns why the sform's matrix cannot place the volume; empty if it can.
@@ -184,8 +180,8 @@ glm::dmat3 qform_matrix(const Nifti& n, const glm::dvec3& spacing) {
 /// Places the grid in the patient. NIfTI's axes are RAS: x and y change sign.
 void place(const fs::path& file, const Nifti& n, Grid& grid) {
   if (n.units == 1 || n.units == 3)
-    refuse(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
-           "save it in millimetres");
+    refuse_header(file, std::string("its unit of length is the ") + (n.units == 1 ? "metre" : "micrometre"),
+                  "save it in millimetres");
   grid.spacing = {n.pixdim[1], n.pixdim[2], n.pixdim[3]};
   check_positive_spacing(file.string(), grid.spacing, "correct the header's pixdim");
   for (int a = 0; a < 3; ++a) check_reach(file, "qform's offset", n.offset[a]);
@@ -197,18 +193,19 @@ void place(const fs::path& file, const Nifti& n, Grid& grid) {
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 4; ++c) {
         const double number = c < 3 ? n.sform[c][r] : n.sform_offset[r];
-        if (!std::isfinite(number)) refuse(file, "the sform matrix holds a number that is not finite", "correct it");
+        if (!std::isfinite(number))
+          refuse_header(file, "the sform matrix holds a number that is not finite", "correct it");
         check_reach(file, "sform matrix", number);
       }
     problem = why_not_placed_by(n.sform, grid.spacing);
     if (n.qform_code == 0 && !problem.empty())
-      refuse(file, problem, "correct the header, or resample it to orthogonal axes");
+      refuse_header(file, problem, "correct the header, or resample it to orthogonal axes");
   }
   glm::dmat3 matrix = n.sform;
   glm::dvec3 origin = n.sform_offset;
   if (n.qform_code > 0 && !(n.sform_code == kScannerFrame && problem.empty())) {
     if (!(glm::dot(n.quaternion, n.quaternion) <= 1 + kQuaternionTolerance))
-      refuse(file, "the qform's quaternion is not a rotation", "correct the header");
+      refuse_header(file, "the qform's quaternion is not a rotation", "correct the header");
     matrix = qform_matrix(n, grid.spacing);
     origin = n.offset;
   }
@@ -222,13 +219,15 @@ void place(const fs::path& file, const Nifti& n, Grid& grid) {
 
 void check_dimensions(const fs::path& file, const Nifti& n) {
   if (n.dim[0] < 1 || n.dim[0] > 7)
-    refuse(file, "it claims " + std::to_string(n.dim[0]) + " dimensions", "save it again");
+    refuse_header(file, "it claims " + std::to_string(n.dim[0]) + " dimensions", "save it again");
   for (std::size_t d = 4; d <= std::size_t(n.dim[0]); ++d)
     if (n.dim[d] != 1)
-      refuse(file,
-             "the image has more than 3 dimensions: " + std::to_string(n.dim[d]) + " along axis " + std::to_string(d),
-             "save one volume of it");
-  if (n.dim[0] < 3) refuse(file, "the image has " + std::to_string(n.dim[0]) + " dimensions", "give a 3D volume");
+      refuse_header(
+          file,
+          "the image has more than 3 dimensions: " + std::to_string(n.dim[d]) + " along axis " + std::to_string(d),
+          "save one volume of it");
+  if (n.dim[0] < 3)
+    refuse_header(file, "the image has " + std::to_string(n.dim[0]) + " dimensions", "give a 3D volume");
 }
 
 }  // namespace
@@ -238,30 +237,31 @@ VolumeHeader read_nifti_volume_header(const fs::path& file) {
   ByteStream stream(file, 0, packed);
   bool ends_early = false;
   const std::optional<Nifti> found = read_header(stream, ends_early);
-  if (ends_early) refuse(file, "the file ends within the header", "check that it is the right file");
-  if (!found) refuse(file, "this is not a NIfTI file", "check that it is the right file");
+  if (ends_early) refuse_header(file, "the file ends within the header", "check that it is the right file");
+  if (!found) refuse_header(file, "this is not a NIfTI file", "check that it is the right file");
   const Nifti& n = *found;
   check_dimensions(file, n);
   VolumeHeader header{"NIfTI", {}, {}};
   place(file, n, header.grid);
   constexpr int kMatrixIntent = 1004;
-  if (n.intent == kMatrixIntent) refuse(file, "each voxel is a matrix, by the intent code 1004", "save the CT alone");
+  if (n.intent == kMatrixIntent)
+    refuse_header(file, "each voxel is a matrix, by the intent code 1004", "save the CT alone");
   VoxelData& data = header.data;
   if (n.slope != 0) {
     check_rescale(file.string(), "scl_slope", n.slope, "scl_inter", n.intercept);
     data.slope = n.slope;
     data.intercept = n.intercept;
   } else if (n.intercept != 0) {
-    refuse(file, "its scl_slope is 0, which means no rescale, yet its scl_inter is " + number_text(n.intercept),
-           "correct the header");
+    refuse_header(file, "its scl_slope is 0, which means no rescale, yet its scl_inter is " + number_text(n.intercept),
+                  "correct the header");
   }
   data.type = type_of(file, n.datatype);
   data.big_endian = n.big_endian;
   if (!(n.data_offset >= double(n.header_bytes) && n.data_offset < 1e12))
-    refuse(file,
-           "it claims that the voxels begin at byte " + number_text(n.data_offset) + ", and its header has " +
-               std::to_string(n.header_bytes) + " bytes",
-           "save it again");
+    refuse_header(file,
+                  "it claims that the voxels begin at byte " + number_text(n.data_offset) + ", and its header has " +
+                      std::to_string(n.header_bytes) + " bytes",
+                  "save it again");
   data.file = file;
   data.packed = packed;
   (packed ? data.skipped : data.offset) = std::uint64_t(n.data_offset);

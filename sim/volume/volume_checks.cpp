@@ -21,64 +21,64 @@ constexpr double kOrthogonalTolerance = 1e-3;
 constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
 const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
 
-[[noreturn]] void refuse(const std::string& file, const std::string& problem, const std::string& remedy) {
-  throw InputError(file, "header", problem, remedy);
-}
-
 }  // namespace
+
+void refuse_header(const std::filesystem::path& file, const std::string& problem, const std::string& remedy) {
+  throw InputError(file.string(), "header", problem, remedy);
+}
 
 void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::uint64_t k) {
   const std::string sizes = std::to_string(i) + " x " + std::to_string(j) + " x " + std::to_string(k) + " voxels";
   for (const std::uint64_t side : {i, j, k}) {
     if (side < 2)
-      refuse(file, "it claims " + sizes + ", which is not a volume", "give a 3D volume of 2 or more slices");
+      refuse_header(file, "it claims " + sizes + ", which is not a volume", "give a 3D volume of 2 or more slices");
     if (side > kMostVoxelsASide)
-      refuse(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
-             "check that the file is whole, or crop it");
+      refuse_header(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
+                    "check that the file is whole, or crop it");
   }
   if (i * j * k > kMostVoxels)
-    refuse(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
+    refuse_header(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
 }
 
 void check_body_size(const std::string& file, const glm::ivec3& voxels, const glm::dvec3& spacing) {
   const glm::dvec3 size = glm::dvec3(voxels) * spacing;
   for (int a = 0; a < 3; ++a)
     if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
-      refuse(file,
-             "the volume measures " + number_text(size.x) + " x " + number_text(size.y) + " x " + number_text(size.z) +
-                 " mm, where a body has " + number_text(kLeastBodyMm) + " to " + number_text(kMostBodyMm) +
-                 " mm along each axis",
-             "is its spacing in mm, and not in another unit?");
+      refuse_header(file,
+                    "the volume measures " + number_text(size.x) + " x " + number_text(size.y) + " x " +
+                        number_text(size.z) + " mm, where a body has " + number_text(kLeastBodyMm) + " to " +
+                        number_text(kMostBodyMm) + " mm along each axis",
+                    "is its spacing in mm, and not in another unit?");
 }
 
 void check_rescale(const std::string& file, const std::string& slope_name, double slope,
                    const std::string& intercept_name, double intercept) {
   if (!(slope >= kLeastSlope && slope <= kMostSlope))
-    refuse(file,
-           "its " + slope_name + " is " + number_text(slope) + ", where a CT has one from " + number_text(kLeastSlope) +
-               " to " + number_text(kMostSlope),
-           kRescaleRemedy);
+    refuse_header(file,
+                  "its " + slope_name + " is " + number_text(slope) + ", where a CT has one from " +
+                      number_text(kLeastSlope) + " to " + number_text(kMostSlope),
+                  kRescaleRemedy);
   if (!(std::abs(intercept) <= kMostIntercept))
-    refuse(file,
-           "its " + intercept_name + " is " + number_text(intercept) + ", where a CT has one within +-" +
-               number_text(kMostIntercept),
-           kRescaleRemedy);
+    refuse_header(file,
+                  "its " + intercept_name + " is " + number_text(intercept) + ", where a CT has one within +-" +
+                      number_text(kMostIntercept),
+                  kRescaleRemedy);
 }
 
 void check_positive_spacing(const std::string& file, const glm::dvec3& spacing, const std::string& remedy) {
   for (int a = 0; a < 3; ++a)
     if (!(spacing[a] > 0) || !std::isfinite(spacing[a]))
-      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing[a]), remedy);
+      refuse_header(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing[a]), remedy);
 }
 
 Grid checked_grid(const std::string& file, Grid grid) {
   for (int a = 0; a < 3; ++a) {
     const double spacing = grid.spacing[a];
     if (!(spacing >= kLeastSpacingMm && spacing <= kMostSpacingMm))
-      refuse(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing) + " mm",
-             "give a spacing from 0.001 to 100 mm");
+      refuse_header(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing) + " mm",
+                    "give a spacing from 0.001 to 100 mm");
     if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
-      refuse(file, "the origin is at " + number_text(grid.origin[a]) + " mm", "correct the origin");
+      refuse_header(file, "the origin is at " + number_text(grid.origin[a]) + " mm", "correct the origin");
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);
   double worst = 0;
@@ -90,9 +90,10 @@ Grid checked_grid(const std::string& file, Grid grid) {
     }
   if (!orthogonal) {
     const double determinant = glm::determinant(grid.direction);
-    if (std::abs(determinant) < kOrthogonalTolerance) refuse(file, "the direction matrix is singular", "correct it");
-    refuse(file, "the axes are not orthogonal: they stretch or shear by " + number_text(worst),
-           "resample it to orthogonal axes");
+    if (std::abs(determinant) < kOrthogonalTolerance)
+      refuse_header(file, "the direction matrix is singular", "correct it");
+    refuse_header(file, "the axes are not orthogonal: they stretch or shear by " + number_text(worst),
+                  "resample it to orthogonal axes");
   }
   // Gram-Schmidt. The third axis keeps its side, because a reflection is legitimate.
   glm::dmat3& d = grid.direction;

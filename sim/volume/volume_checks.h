@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "sim/core/grid.h"
@@ -13,6 +14,10 @@ inline constexpr std::uint64_t kMostVoxelsASide = 4096;
 inline constexpr std::uint64_t kMostVoxels = std::uint64_t(1) << 31;
 /// The largest distance of the origin from zero along an axis. A scanner's table is 2 m long.
 inline constexpr double kFurthestOriginMm = 1e6;
+
+/// Throws InputError for a problem in the header of a volume file.
+[[noreturn]] void refuse_header(const std::filesystem::path& file, const std::string& problem,
+                                const std::string& remedy);
 
 /// Throws InputError for sizes that no volume has: a side with fewer than 2 or too many voxels, or too many voxels in
 /// all.

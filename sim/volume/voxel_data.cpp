@@ -5,6 +5,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/volume/byte_stream.h"
+#include "sim/volume/volume_checks.h"
 
 namespace insonate {
 namespace {
@@ -17,20 +18,16 @@ constexpr std::uint64_t kMostDeflated = 1032;
 // How many bytes beyond the claimed voxels are counted.
 constexpr std::uint64_t kMostCounted = 1u << 24;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& remedy) {
-  throw InputError(file.string(), "header", problem, remedy);
-}
-
 [[noreturn]] void refuse_size(const fs::path& file, std::uint64_t claimed, std::uint64_t held,
                               const char* more_than = "") {
-  refuse(
+  refuse_header(
       file,
       "it claims " + std::to_string(claimed) + " bytes of voxels, the file holds " + more_than + std::to_string(held),
       held < claimed ? "copy the file again" : "correct the sizes and the type in the header, or export it again");
 }
 
 [[noreturn]] void refuse_as_damaged(const fs::path& file) {
-  refuse(file, "the packed data are damaged or cut off", "copy the file again");
+  refuse_header(file, "the packed data are damaged or cut off", "copy the file again");
 }
 
 /// Applies the rescale. As in other readers of NIfTI, its result has single precision unless doubles are stored.
@@ -46,16 +43,16 @@ double rescaled(Stored stored, const VoxelData& data) {
 void check_voxel_data(const fs::path& header_file, const VoxelData& data, std::uint64_t count) {
   std::error_code error;
   if (!fs::is_regular_file(data.file, error))
-    refuse(header_file, "there is no data file '" + data.file.string() + "'", "put it beside the header");
+    refuse_header(header_file, "there is no data file '" + data.file.string() + "'", "put it beside the header");
   const std::uint64_t there = fs::file_size(data.file, error), claimed = count * bytes_of(data.type);
   if (!data.packed) {
     const std::uint64_t held = there - std::min(there, data.offset);
     if (held != claimed) refuse_size(header_file, claimed, held);
   } else if ((data.skipped + claimed) / kMostDeflated > there) {
-    refuse(header_file,
-           "it claims " + std::to_string(claimed) + " bytes of voxels, which its " + std::to_string(there) +
-               " packed bytes cannot hold",
-           "copy the file again");
+    refuse_header(header_file,
+                  "it claims " + std::to_string(claimed) + " bytes of voxels, which its " + std::to_string(there) +
+                      " packed bytes cannot hold",
+                  "copy the file again");
   }
 }
 

@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("bench_table", [](std::string_view bytes) -> std::string {
+const Target bench_table_target("bench_table", [](std::string_view bytes) -> std::string {
   const bench::Table table = bench::Table::parse("times.csv", bytes);
   for (const auto& row : table.rows)
     if (row.size() != table.columns.size()) return "a row has not a cell per column";

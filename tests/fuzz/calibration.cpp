@@ -6,7 +6,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("calibration", [](std::string_view bytes) -> std::string {
+const Target calibration_target("calibration", [](std::string_view bytes) -> std::string {
   const Calibration calibration = parse_calibration(bytes, "calibration.toml");
   const std::string text = to_toml(calibration);
   if (to_toml(parse_calibration(text, "written again")) != text) return "written and read again it is another";

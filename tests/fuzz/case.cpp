@@ -27,7 +27,7 @@ bool names_differ(const std::vector<Named>& all) {
   return std::all_of(all.begin(), all.end(), [&](const Named& one) { return names.insert(one.name).second; });
 }
 
-const Target target("case", [](std::string_view bytes) -> std::string {
+const Target case_target("case", [](std::string_view bytes) -> std::string {
   static const std::filesystem::path folder = folder_with_volumes();
   file_with("case/case.toml", bytes);
   const Case subject = read_case(folder);

@@ -35,7 +35,7 @@ Attempt plain_attempt() {
   return attempt;
 }
 
-const Target target("comment", [](std::string_view bytes) -> std::string {
+const Target comment_target("comment", [](std::string_view bytes) -> std::string {
   Comment comment;
   const std::size_t end = std::min(bytes.find('\n'), bytes.size());
   comment.author = bytes.substr(0, end);

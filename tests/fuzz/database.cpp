@@ -6,7 +6,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("database", [](std::string_view bytes) -> std::string {
+const Target database_target("database", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("results.db", bytes);
   for (const char* beside : {"-wal", "-shm", "-journal"}) std::filesystem::remove(file.string() + beside);
   ResultsDatabase database = ResultsDatabase::open(file);

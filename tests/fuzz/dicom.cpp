@@ -137,7 +137,7 @@ fs::path folder_with_slices() {
   return folder;
 }
 
-const Target target("dicom", [](std::string_view bytes) {
+const Target dicom_target("dicom", [](std::string_view bytes) {
   static const fs::path folder = folder_with_slices();
   return broken_in(folder, file_with("dicom/slice_between", bytes));
 });

@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("igtl", [](std::string_view bytes) -> std::string {
+const Target igtl_target("igtl", [](std::string_view bytes) -> std::string {
   if (bytes.empty()) return "";
   const igtl::ByteView stream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   return igtl::broken_promise(stream.subspan(1), 1 + std::size_t(stream[0]));

@@ -27,7 +27,7 @@ std::string broken_by_drawing(const std::filesystem::path& file) {
   return why_not_rigid(face->fit.sensor_from_face.matrix()) ? "the drawn face is not rigid" : "";
 }
 
-const Target target("landmarks", [](std::string_view bytes) -> std::string {
+const Target landmarks_target("landmarks", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("given.toml", bytes);
   const std::string broken = broken_by([&] { return broken_by_landmarks(file); });
   return broken.empty() ? broken_by_drawing(file) : broken;

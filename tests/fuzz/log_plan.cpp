@@ -7,7 +7,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("log_plan", [](std::string_view bytes) -> std::string {
+const Target log_plan_target("log_plan", [](std::string_view bytes) -> std::string {
   const LogPlan plan = read_log_plan(file_with("plan.toml", bytes));
   if (plan.moves.size() < 2) return "a plan of fewer than two moves was taken";
   if (!(plan.rate_hz >= 10 && plan.rate_hz <= 250)) return "the rate is out of range";

@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("manifest", [](std::string_view bytes) -> std::string {
+const Target manifest_target("manifest", [](std::string_view bytes) -> std::string {
   const std::filesystem::path path = file_with("set/manifest.json", bytes).parent_path();
   file_with("set/shards/00000.h5", "not HDF5");
   const DatasetFolder folder(path);

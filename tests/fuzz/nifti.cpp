@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("nifti", [](std::string_view bytes) -> std::string {
+const Target nifti_target("nifti", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("volume.nii", bytes);
   if (const std::string broken = broken_by_volume(file); !broken.empty()) return broken;
   for (const auto& [value, name] : read_nifti_label_table(file))

@@ -4,7 +4,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("nrrd", [](std::string_view bytes) {
+const Target nrrd_target("nrrd", [](std::string_view bytes) {
   static const std::filesystem::path beside = file_with("voxels.raw", std::string(128, '\1'));
   return broken_by_volume(file_with("volume.nrrd", bytes));
 });

@@ -7,7 +7,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("poses", [](std::string_view bytes) -> std::string {
+const Target poses_target("poses", [](std::string_view bytes) -> std::string {
   const std::vector<Pose> poses = read_poses(file_with("poses.txt", bytes).string());
   if (poses.empty()) return "a file without poses was taken";
   std::string text;

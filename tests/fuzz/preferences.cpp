@@ -6,7 +6,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("preferences", [](std::string_view bytes) -> std::string {
+const Target preferences_target("preferences", [](std::string_view bytes) -> std::string {
   const Preferences preferences = read_preferences(file_with("settings.toml", bytes));
   const WindowLevel& grey = preferences.ct.grey;
   if (!(grey.window_hu >= WindowLevel::kLeastWindow && grey.window_hu <= WindowLevel::kMostWindow) ||

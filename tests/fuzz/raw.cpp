@@ -8,7 +8,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("raw", [](std::string_view bytes) -> std::string {
+const Target raw_target("raw", [](std::string_view bytes) -> std::string {
   const RawScan scan = parse_raw(bytes, "fuzzed.raw");
   if (scan.samples.empty()) return "a recording without samples was taken";
   double before_s = -std::numeric_limits<double>::infinity();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostMade = 1000;  ///< voxels: larger ones take the fuzzer's time and show nothing new
 
-const Target target("recipe", [](std::string_view bytes) -> std::string {
+const Target recipe_target("recipe", [](std::string_view bytes) -> std::string {
   const std::string text(bytes);
   const PhantomPlan plan = plan_phantom(Recipe("fuzzed.toml", text, {}));
   if (plan.labels.empty() || plan.labels.size() > 255) return "it has no labels, or too many";

@@ -50,7 +50,7 @@ std::string broken_by_sweep(const std::filesystem::path& file) {
   return read.sweep.images.size() == 2 && read.left_out < read.frames ? "" : "it is not the sweep that was asked for";
 }
 
-const Target target("recorded_images", [](std::string_view bytes) -> std::string {
+const Target recorded_images_target("recorded_images", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("scan.igs.mha", bytes);
   const std::string broken = broken_by([&] { return broken_by_images(file); });
   return broken.empty() ? broken_by_sweep(file) : broken;

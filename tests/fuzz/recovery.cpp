@@ -6,7 +6,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("recovery", [](std::string_view bytes) -> std::string {
+const Target recovery_target("recovery", [](std::string_view bytes) -> std::string {
   const std::size_t end = std::min(bytes.find('\0'), bytes.size());
   const std::filesystem::path file = file_with("run.mha", "");
   std::filesystem::remove(file);

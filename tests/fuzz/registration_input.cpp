@@ -19,7 +19,7 @@ std::string broken_by_landmarks(const std::string& file) {
   return why_not_rigid(start_from_landmarks(file), 1e6) ? "the start is not rigid" : "";
 }
 
-const Target target("registration_input", [](std::string_view bytes) -> std::string {
+const Target registration_input_target("registration_input", [](std::string_view bytes) -> std::string {
   const std::string file = file_with("given.toml", bytes).string();
   const std::string broken = broken_by([&] { return broken_by_probe(file); });
   return broken.empty() ? broken_by_landmarks(file) : broken;

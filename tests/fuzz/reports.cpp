@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("reports", [](std::string_view bytes) {
+const Target reports_target("reports", [](std::string_view bytes) {
   return broken_promise({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 });
 

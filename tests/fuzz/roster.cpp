@@ -18,7 +18,7 @@ std::string broken_in(const std::filesystem::path& file) {
   return "";
 }
 
-const Target target("roster", [](std::string_view bytes) -> std::string {
+const Target roster_target("roster", [](std::string_view bytes) -> std::string {
   const std::string broken = broken_by([&] { return broken_in(file_with("roster.csv", bytes)); });
   return broken.empty() ? broken_in(file_with("roster.toml", bytes)) : broken;
 });

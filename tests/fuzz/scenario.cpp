@@ -30,7 +30,7 @@ std::string broken_in(const Scenario& scenario) {
   return "";
 }
 
-const Target target("scenario", [](std::string_view bytes) -> std::string {
+const Target scenario_target("scenario", [](std::string_view bytes) -> std::string {
   static const Case subject = tiny_case();
   const Scenario scenario = parse_scenario(bytes, "fuzzed.toml");
   if (const std::string broken = broken_in(scenario); !broken.empty()) return broken;

@@ -33,7 +33,7 @@ std::string broken_by_trace(std::string_view bytes) {
   return report_html(result, trace).empty() ? "nothing is made of a trace" : "";
 }
 
-const Target target("score", [](std::string_view bytes) -> std::string {
+const Target score_target("score", [](std::string_view bytes) -> std::string {
   const std::string broken = broken_by([&] { return broken_by_score(bytes); });
   return broken.empty() ? broken_by_trace(bytes) : broken;
 });

@@ -22,7 +22,7 @@ std::string broken_in(const Segmentation& found, const Grid& ct) {
   return present == listed ? "" : "the table does not list what has voxels";
 }
 
-const Target target("segmentation", [](std::string_view bytes) -> std::string {
+const Target segmentation_target("segmentation", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("labels.nii", bytes);
   Grid ct;
   ct.size = {4, 4, 4};

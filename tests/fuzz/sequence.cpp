@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("sequence", broken_sequence_promise);
+const Target sequence_target("sequence", broken_sequence_promise);
 
 }  // namespace
 }  // namespace insonate::fuzz

@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("settings", [](std::string_view bytes) -> std::string {
+const Target settings_target("settings", [](std::string_view bytes) -> std::string {
   return why_not_valid(read_settings(file_with("settings.toml", bytes), 3.5, 160)).value_or("");
 });
 

@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("shard", [](std::string_view bytes) -> std::string {
+const Target shard_target("shard", [](std::string_view bytes) -> std::string {
   const std::filesystem::path file = file_with("00000.h5", bytes);
   const std::string damage = damage_of_shard(file);
   if (damage.find('\n') != std::string::npos) return "the damage is not a sentence";

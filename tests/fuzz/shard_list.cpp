@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kShards = 1000;
 
-const Target target("shard_list", [](std::string_view bytes) -> std::string {
+const Target shard_list_target("shard_list", [](std::string_view bytes) -> std::string {
   const std::vector<std::uint32_t> shards = read_shard_list("--shards", std::string(bytes), kShards);
   if (shards.empty() || shards.back() >= kShards || !std::ranges::is_sorted(shards)) return "a shard is out of range";
   if (read_shard_list("--shards", shard_list(shards), kShards) != shards)

@@ -13,7 +13,7 @@ bool holds(const NumberRange& range, double least, double most) {
   return range.least >= least && range.least <= range.most && range.most <= most;
 }
 
-const Target target("study", [](std::string_view bytes) -> std::string {
+const Target study_target("study", [](std::string_view bytes) -> std::string {
   const Study study = read_study(file_with("study.toml", bytes));
   if (study.images == 0 || study.shards() == 0 || study.shards() > kMostShards)
     return "it has no images or too many shards";

@@ -11,7 +11,7 @@ bool is_echogenicity(double db) {
   return db >= -60 && db <= 30;
 }
 
-const Target target("tissues", [](std::string_view bytes) -> std::string {
+const Target tissues_target("tissues", [](std::string_view bytes) -> std::string {
   const TissueTable table = read_tissue_table(file_with("tissues.toml", bytes));
   if (table.knots.size() < 2) return "fewer than two knots were taken";
   int before = kLeastKnotHu - 1;

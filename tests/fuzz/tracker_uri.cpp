@@ -8,7 +8,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("tracker_uri", [](std::string_view bytes) -> std::string {
+const Target tracker_uri_target("tracker_uri", [](std::string_view bytes) -> std::string {
   TrackerUri uri = parse_tracker_uri(bytes);
   if (uri.text != bytes) return "the text differs from what was given";
   if (uri.scheme.empty() || uri.scheme.find(':') != std::string::npos) return "the scheme is not a name";

@@ -12,7 +12,7 @@ bool is_within(double value, double least, double most) {
   return value >= least && value <= most;
 }
 
-const Target target("transducer", [](std::string_view bytes) -> std::string {
+const Target transducer_target("transducer", [](std::string_view bytes) -> std::string {
   const Transducer transducer = read_transducer(file_with("transducer.toml", bytes));
   if (!is_within(transducer.elements, 1, 1024) || !is_within(transducer.pitch_mm, 0.02, 5) ||
       !(transducer.element_width_mm() > 0) || transducer.kerf_mm < 0 || !is_within(transducer.radius_mm, 5, 200) ||

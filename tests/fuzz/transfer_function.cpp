@@ -17,7 +17,7 @@ bool is_within(const TransferPoint& point) {
          is_share(point.colour.b);
 }
 
-const Target target("transfer_function", [](std::string_view bytes) -> std::string {
+const Target transfer_function_target("transfer_function", [](std::string_view bytes) -> std::string {
   const TransferFunction function = read_transfer_function(file_with("look.toml", bytes));
   if (function.points.size() < 2 || function.points.size() > kMostTransferPoints)
     return "it has too few or many points";

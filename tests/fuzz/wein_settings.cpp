@@ -5,7 +5,7 @@
 namespace insonate::fuzz {
 namespace {
 
-const Target target("wein_settings", [](std::string_view bytes) -> std::string {
+const Target wein_settings_target("wein_settings", [](std::string_view bytes) -> std::string {
   return why_not_valid(read_wein_settings(file_with("wein.toml", bytes))).value_or("");
 });
 

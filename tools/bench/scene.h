@@ -34,6 +34,9 @@ struct Scene {
   Pose pose;
 };
 
+/// The fan that a 3D probe sweeps over its pivot.
+inline constexpr double kSwept_deg = 60, kPivot_mm = 30;
+
 /// Opens the scenes one by one, so that only one is in memory. Throws InputError.
 void for_each_scene(const Request& request, const std::function<void(const Scene&)>& measure);
 

@@ -28,8 +28,8 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# The headers that most files include, compiled once. A file must still include everything that it uses: only the
-# presets release, dev and asan-ubsan precompile headers, and the others compile every file without.
+# The headers that most files include, compiled once. A file must still include everything that it uses: only some
+# presets precompile headers and compile files together, and the others compile every file alone and without.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
@@ -37,6 +37,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS
   target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
+
+# Compiled with others, a source counts as a header, in which a class may not have members of unnamed namespaces.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(insonate_options INTERFACE -Wno-subobject-linkage)
+endif()
 
 # The rooms' include folders are made anew, because a room of an earlier build may have stood where a folder is now. They
 # hold links alone.
@@ -46,11 +51,12 @@ file(REMOVE_RECURSE "${CMAKE_BINARY_DIR}/rooms")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/folders.txt" "")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/uses.txt" "")
 
-# insonate_room(<name> SOURCES <file>... [USES <room or library>...] [PRIVATELY <library>...])
+# insonate_room(<name> SOURCES <file>... [ALONE <file>...] [USES <room or library>...] [PRIVATELY <library>...])
 # makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
-# too, because its headers include them; libraries linked PRIVATELY are not visible to them.
+# too, because its headers include them; libraries linked PRIVATELY are not visible to them. Files ALONE are never
+# compiled together with others: they have names of their own that others have too, such as the measures of a drawing.
 function(insonate_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATELY" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ALONE;USES;PRIVATELY" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
   set(include_root "${CMAKE_BINARY_DIR}/rooms/${name}")
   cmake_path(GET folder PARENT_PATH parent)
@@ -58,7 +64,8 @@ function(insonate_room name)
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${include_root}/${folder}" SYMBOLIC)
 
   if(ROOM_SOURCES)
-    add_library(insonate_${name} STATIC ${ROOM_SOURCES})
+    add_library(insonate_${name} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
+    set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     target_include_directories(insonate_${name} PUBLIC "$<BUILD_INTERFACE:${include_root}>")
     target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES}
                                            PRIVATE $<BUILD_INTERFACE:insonate_options> ${ROOM_PRIVATELY})

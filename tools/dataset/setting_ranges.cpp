@@ -14,7 +14,6 @@
 namespace insonate {
 namespace {
 
-constexpr const char* kEither = "either";
 constexpr const char* kShift = "tgc_shift_db";
 
 /// Returns a setting's value as it is by default, which shows its kind.

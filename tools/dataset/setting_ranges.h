@@ -10,8 +10,11 @@ namespace insonate {
 /// The size of pictures that a study leaves open, pixels.
 inline constexpr int kUsualPictureSide = 512;
 
+/// The value of a field that is true or false, if each image draws one of the two.
+inline constexpr const char* kEither = "either";
+
 /// Reads the table [settings] of a study. A key is the name of a field of Settings. It takes one value, a range of a
-/// number as [least, most], a list of texts of which one is drawn, and for a field that is true or false "either".
+/// number as [least, most], a list of texts of which one is drawn, and for a field that is true or false kEither.
 void read_setting_ranges(const TomlTable& table, Study& study);
 
 /// Returns the settings of one image.

@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kLargestFile = 1u << 20;
 constexpr std::size_t kMostTables = 1000;
 constexpr NumberRange kWeight{1e-6, 1e6};
-constexpr const char* kEither = "either";
 
 /// Reads one number, or the least and the most in square brackets.
 NumberRange read_range(const TomlTable& table, std::string_view key, const NumberRange& limits,

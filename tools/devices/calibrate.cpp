@@ -22,7 +22,7 @@
 namespace insonate::devices {
 namespace {
 
-struct Request {
+struct CalibrateRequest {
   std::vector<std::string> steps;
   std::string uri;
   std::filesystem::path out, landmarks, drawing;
@@ -123,7 +123,7 @@ private:
   std::size_t next_ = 0;
 };
 
-SetupInput given_of(const Request& request) {
+SetupInput given_of(const CalibrateRequest& request) {
   SetupInput given;
   given.moved = request.moved;
   if (!request.drawing.empty()) given.drawing = read_probe_drawing(request.drawing);
@@ -132,7 +132,7 @@ SetupInput given_of(const Request& request) {
   return given;
 }
 
-int calibrate(const Request& request) {
+int calibrate(const CalibrateRequest& request) {
   check_can_be_calibrated(request.uri);
   Calibration calibration = calibration_to_continue(request.out, tracker_identity(request.uri));
   const SetupInput given = given_of(request);
@@ -161,7 +161,7 @@ int calibrate(const Request& request) {
 }  // namespace
 
 Command calibrate_command(CLI::App& program) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CalibrateRequest>();
   CLI::App* parser = program.add_subcommand("calibrate",
                                             "Find how tracker, probe and mannequin lie relative to each other, step by "
                                             "step, as docs/calibration.md describes");

@@ -87,12 +87,12 @@ void print(const std::string& log, const LogReport& report) {
 /// Exit code for a readable log with findings that a person should review.
 constexpr int kSomethingFound = 1;
 
-struct Request {
+struct CheckRequest {
   std::string log, transform;
   bool json = false;
 };
 
-int check(const Request& request) {
+int check(const CheckRequest& request) {
   RecordingOptions options;
   options.transform = request.transform;
   options.without_times = true;
@@ -107,7 +107,7 @@ int check(const Request& request) {
 }  // namespace
 
 Command check_command(CLI::App& program) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CheckRequest>();
   CLI::App* parser = program.add_subcommand("check", "Check the rate, gaps, dropouts and jumps of a recorded log");
   parser
       ->add_option("LOG", request->log,

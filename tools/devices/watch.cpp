@@ -39,12 +39,12 @@ void print(const ProbeSample& sample) {
 /// Set by Ctrl C, which ends a recording as its time limit does: the file is completed.
 volatile std::sig_atomic_t stopped = 0;
 
-struct Request {
+struct WatchRequest {
   std::string uri, record, record_raw;
   double seconds = 1e9;
 };
 
-int watch(const Request& request) {
+int watch(const WatchRequest& request) {
   const double seconds = request.seconds;
   const auto tracker = open_tracker(request.uri);
   std::optional<SequenceRecorder> recorder;
@@ -93,7 +93,7 @@ int watch(const Request& request) {
 }  // namespace
 
 Command watch_command(CLI::App& program) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<WatchRequest>();
   CLI::App* parser = program.add_subcommand("watch", "Print a tracker's samples as they arrive");
   parser->add_option("URI", request->uri, "Watch this tracker; 'list' shows the forms of a URI")
       ->required()

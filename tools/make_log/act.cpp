@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -14,7 +15,6 @@
 namespace insonate {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWindow_mm = 100;
 constexpr double kPitch_mm = 0.5;
 
@@ -58,10 +58,10 @@ Action caliper_on(const Doing& doing) {
   std::optional<glm::dvec2> near;
   if (doing.words.size() == 6) near = doing.landmark(doing.words[5]);
   const PlaneRegion region = doing.region(doing.words[2], near);
-  double angle = doing.words[3] == "depth" ? kPi / 2 : 0;
+  double angle = doing.words[3] == "depth" ? std::numbers::pi / 2 : 0;
   if (doing.words[3] == "longest")
     for (int i = 0; i < 90; ++i)
-      if (const double other = kPi * i / 90;
+      if (const double other = std::numbers::pi * i / 90;
           region.extent_mm({std::cos(other), std::sin(other)}) > region.extent_mm({std::cos(angle), std::sin(angle)}))
         angle = other;
   const glm::dvec2 along(std::cos(angle), std::sin(angle));

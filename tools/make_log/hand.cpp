@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
@@ -18,14 +19,12 @@
 namespace insonate {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A sequence of random numbers from one seed.
 class Random {
 public:
   explicit Random(std::uint32_t seed) : seed_(seed) {}
   double uniform() { return (double(hash(seed_, next_++)) + 0.5) / 4294967296.0; }
-  double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * kPi * uniform()); }
+  double normal() { return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform()); }
   glm::dvec3 normal3() {
     const double x = normal(), y = normal(), z = normal();
     return {x, y, z};
@@ -41,11 +40,12 @@ private:
 class Wander {
 public:
   Wander(Random& random, double least_hz, double most_hz) {
-    for (Wave& wave : waves_) wave = {least_hz + (most_hz - least_hz) * random.uniform(), 2 * kPi * random.uniform()};
+    for (Wave& wave : waves_)
+      wave = {least_hz + (most_hz - least_hz) * random.uniform(), 2 * std::numbers::pi * random.uniform()};
   }
   double at(double time_s) const {
     double sum = 0;
-    for (const Wave& wave : waves_) sum += std::sin(2 * kPi * wave.hz * time_s + wave.phase);
+    for (const Wave& wave : waves_) sum += std::sin(2 * std::numbers::pi * wave.hz * time_s + wave.phase);
     return sum / 2;  // four sines of random phase: standard deviation 0.7
   }
 
@@ -91,7 +91,8 @@ struct Stretch {
   Aim at(double time_s) const {
     const double share = std::clamp(time_s / seconds, 0.0, 1.0);
     Aim aim = between(from, to, minimum_jerk(share));
-    if (fan_deg > 0) aim.pose.rotation = aim.pose.rotation * turn(fan_deg * std::sin(2 * kPi * share), {1, 0, 0});
+    if (fan_deg > 0)
+      aim.pose.rotation = aim.pose.rotation * turn(fan_deg * std::sin(2 * std::numbers::pi * share), {1, 0, 0});
     return aim;
   }
 };

@@ -29,8 +29,7 @@ constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, 
 constexpr std::size_t kLargestProbeFile = 1 << 20;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-constexpr std::size_t kLookedAt = 24;  // images in which a fan is sought
-constexpr double kSamePixel = 0.01;    // by which the pixels of a recording's images may differ in size
+constexpr double kSamePixel = 0.01;  // by which the pixels of a recording's images may differ in size
 
 /// An image of the recording with a usable pose.
 struct Frame {
@@ -206,7 +205,7 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
 FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& frames, SweepInput& input) {
   EchoSeen seen;
   const glm::dvec2 mm = pixel_size(frames.front().probe_from_pixel);
-  const std::size_t kept = std::min(frames.size(), kLookedAt);
+  const std::size_t kept = std::min(frames.size(), kMostSearchedForFan);
   for (std::size_t i = 0; i < kept; ++i) {
     const Frame& frame = frames[(2 * i + 1) * frames.size() / (2 * kept)];
     if (glm::distance(pixel_size(frame.probe_from_pixel), mm) > kSamePixel * glm::length(mm))

@@ -21,6 +21,9 @@
 
 namespace insonate {
 
+/// As many images of a recording are searched for a fan; if it has more, they are evenly spread over it.
+inline constexpr std::size_t kMostSearchedForFan = 24;
+
 /// How a recording of tracked ultrasound is read.
 struct SweepInput {
   std::string file;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastOpening = glm::radians(3.0), kMostSlope = 3.7;  // of a side: 75 degrees
 // Of the way from the wedge's top to its widest row: the sides are fitted there.
 constexpr double kTop = 0.1, kDeep = 0.95;
-constexpr double kLeastShare = 1.0 / 3;  // of the rows that lie above the widest; sides that are shorter say little
+constexpr double kLeastSides = 1.0 / 3;  // of the rows that lie above the widest; sides that are shorter say little
 constexpr int kLeastRows = 8;
 constexpr double kMostOff = 1;  // voxels that a side may lie off its line, root mean square: sides are steps of voxels
 constexpr int kFewVoxels = 3;   // that may be known beside the wedge, such as specks
@@ -84,7 +84,7 @@ SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
   const auto top = std::ranges::find_if(extents, filled);
   const auto widest =
       std::ranges::max_element(extents, {}, [](const glm::ivec2& extent) { return extent.y - extent.x; });
-  if (top == extents.end() || double(widest - top) < kLeastShare * double(std::ranges::count_if(extents, filled)))
+  if (top == extents.end() || double(widest - top) < kLeastSides * double(std::ranges::count_if(extents, filled)))
     return planes;
   std::vector<glm::dvec2> low, high;
   for (auto extent = top + std::ptrdiff_t(kTop * double(widest - top));

@@ -15,13 +15,13 @@
 namespace insonate {
 namespace {
 
-struct Given {
+struct CheckRequest {
   std::filesystem::path scenario;
   std::filesystem::path case_folder;
   bool without_case = false;
 };
 
-CheckedOn patients_of(const Given& given) {
+CheckedOn patients_of(const CheckRequest& given) {
   if (given.without_case) return CheckedOn::no_patient;
   return given.case_folder.empty() ? CheckedOn::its_patients : CheckedOn::given_patient;
 }
@@ -62,7 +62,7 @@ private:
   bool shown_ = false;
 };
 
-int check(const Given& given) {
+int check(const CheckRequest& given) {
   const CheckedOn on = patients_of(given);
   const CheckedText text = check_text(given.scenario, on);
   const bool right_so_far = text.problems.empty();
@@ -96,7 +96,7 @@ int check(const Given& given) {
 }  // namespace
 
 void add_check_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<CheckRequest>();
   CLI::App* command = arguments.add_subcommand("check",
                                                "Check a scenario file and list all its problems: first those of the "
                                                "file, then those that appear on its patients");

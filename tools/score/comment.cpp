@@ -9,13 +9,13 @@
 namespace insonate {
 namespace {
 
-struct Given {
+struct CommentRequest {
   std::filesystem::path database;
   std::int64_t attempt = 0, removed = 0;
   std::string text, author;
 };
 
-int comment(const Given& given) {
+int comment(const CommentRequest& given) {
   if (given.removed != 0) {
     ResultsDatabase::open(given.database).remove_comment(given.removed);
     std::printf("comment %lld is removed\n", static_cast<long long>(given.removed));
@@ -38,7 +38,7 @@ int comment(const Given& given) {
 }  // namespace
 
 void add_comment_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<CommentRequest>();
   CLI::App* command = arguments.add_subcommand(
       "comment",
       "Store a comment with an attempt, for its report, or remove one. The attempt itself never changes. 'attempts' "

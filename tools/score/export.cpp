@@ -9,11 +9,11 @@
 namespace insonate {
 namespace {
 
-struct Given {
+struct ExportRequest {
   std::filesystem::path database, out;
 };
 
-int export_tables(const Given& given) {
+int export_tables(const ExportRequest& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
   const ExportedResults exported = export_results(database, given.out);
   for (const std::filesystem::path& file : exported.files) std::printf("wrote %s\n", file.c_str());
@@ -24,7 +24,7 @@ int export_tables(const Given& given) {
 }  // namespace
 
 void add_export_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<ExportRequest>();
   CLI::App* command = arguments.add_subcommand(
       "export",
       "Write all learners, attempts, scores of criteria and comments in a database as CSV files: learners.csv, "

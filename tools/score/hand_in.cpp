@@ -43,13 +43,13 @@ Attempt scored(ResultsDatabase& database, const Sitting& sitting, AttemptCases& 
   return attempt;
 }
 
-struct Given {
+struct HandInRequest {
   std::filesystem::path database;
   std::int64_t sitting = 0;
   bool discard = false;
 };
 
-int hand_in(const Given& given) {
+int hand_in(const HandInRequest& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
   AttemptCases cases;
@@ -87,7 +87,7 @@ int hand_in(const Given& given) {
 }  // namespace
 
 void add_hand_in_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<HandInRequest>();
   CLI::App* command = arguments.add_subcommand("hand-in",
                                                "Score the exams that were begun with `insonate exam` but never handed "
                                                "in, for example after a power failure, and store each as an attempt");

@@ -17,7 +17,7 @@
 namespace insonate {
 namespace {
 
-struct Given {
+struct PassMarkRequest {
   std::filesystem::path database;
   std::filesystem::path novices;
   std::filesystem::path experts;
@@ -33,7 +33,7 @@ Ids ids_of(const std::filesystem::path& roster) {
 }
 
 /// Returns the digest of the exam: of the named scenario, or of the only one that the two groups took.
-std::string exam_of(const Given& given, const std::vector<AttemptSummary>& attempts, const Ids& novices,
+std::string exam_of(const PassMarkRequest& given, const std::vector<AttemptSummary>& attempts, const Ids& novices,
                     const Ids& experts) {
   if (!given.scenario.empty()) return digest_of(read_file(given.scenario));
   std::set<std::string> digests;
@@ -71,7 +71,7 @@ std::vector<AttemptSummary> attempts_of(ResultsDatabase database, AttemptMode mo
   return attempts;
 }
 
-int pass_mark(const Given& given) {
+int pass_mark(const PassMarkRequest& given) {
   const Ids novices = ids_of(given.novices), experts = ids_of(given.experts);
   for (const std::string& id : novices)
     if (experts.contains(id))
@@ -98,7 +98,7 @@ int pass_mark(const Given& given) {
 }  // namespace
 
 void add_pass_mark_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<PassMarkRequest>();
   CLI::App* command =
       arguments.add_subcommand("pass-mark",
                                "Find a lab's own pass mark for an exam by contrasting groups: the score at which the "

@@ -11,14 +11,14 @@
 namespace insonate {
 namespace {
 
-struct Given {
+struct ReportRequest {
   std::filesystem::path database;
   std::int64_t attempt = 0;
   std::filesystem::path out = ".";
   std::string home_page;
 };
 
-int report(const Given& given) {
+int report(const ReportRequest& given) {
   if (!given.home_page.empty() && given.home_page.find("://") == std::string::npos)
     throw InputError("command line", "--home-page", "'" + given.home_page + "' is not a web address",
                      "give one like https://lab.example/learners");
@@ -39,7 +39,7 @@ int report(const Given& given) {
 }  // namespace
 
 void add_report_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<ReportRequest>();
   CLI::App* command = arguments.add_subcommand(
       "report",
       "Write the reports of attempts in a database, each to a folder of its own: report.html, score.json, score.csv "

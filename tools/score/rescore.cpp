@@ -34,12 +34,12 @@ std::string compare(ResultsDatabase& database, std::int64_t number, AttemptCases
   }
 }
 
-struct Given {
+struct RescoreRequest {
   std::filesystem::path database;
   std::int64_t attempt = 0;
 };
 
-int rescore(const Given& given) {
+int rescore(const RescoreRequest& given) {
   ResultsDatabase database = ResultsDatabase::open(given.database);
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
   AttemptCases cases;
@@ -56,7 +56,7 @@ int rescore(const Given& given) {
 }  // namespace
 
 void add_rescore_command(CLI::App& arguments, CommandRun& run) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<RescoreRequest>();
   CLI::App* command = arguments.add_subcommand(
       "rescore",
       "Score the attempts in a database again, each from its own log and scenario, and list which scores are equal to "

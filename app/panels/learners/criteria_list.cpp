@@ -11,15 +11,15 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kRow = 44, kWidestBar = 30;
+constexpr float kCriterionRow = 44, kWidestBar = 30;
 
-struct Columns {
+struct CriterionColumns {
   Rect name, bars, lost;
 };
 
 /// @param attempts  how many bars there are at most
-Columns columns_of(const Theme& theme, Rect row, std::size_t attempts) {
-  Columns columns;
+CriterionColumns columns_of(const Theme& theme, Rect row, std::size_t attempts) {
+  CriterionColumns columns;
   columns.lost = row.take_right(theme.px(84));
   row.take_right(theme.px(14));
   const float bars = std::clamp(theme.px(kWidestBar) * float(attempts), theme.px(84), row.w * 0.38f);
@@ -53,7 +53,7 @@ float name_height(const Theme& theme, const CriterionTrend& trend, float width) 
 }
 
 void draw_row(const Theme& theme, const Rect& row, const CriterionTrend& trend, std::size_t attempts) {
-  const Columns columns = columns_of(theme, row, attempts);
+  const CriterionColumns columns = columns_of(theme, row, attempts);
   Rect name = columns.name.inset(0, theme.px(3));
   draw_paragraph(name.take_top(name_height(theme, trend, name.w)), theme.text, colour::kText, info(trend.metric).words);
   const std::string part =
@@ -82,7 +82,7 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
   for (const CriterionTrend& criterion : trend.criteria) attempts = std::max(attempts, criterion.shares.size());
   const auto row_height = [&](const CriterionTrend& criterion, float width) {
     const float name = columns_of(theme, {0, 0, width, 0}, attempts).name.w;
-    return theme.px(kRow - 20) + name_height(theme, criterion, name);
+    return theme.px(kCriterionRow - 20) + name_height(theme, criterion, name);
   };
   const auto height_of_rows = [&](float width) {
     float height = 0;
@@ -92,7 +92,7 @@ void draw_criteria_list(const Theme& theme, Rect where, const ScoreTrend& trend)
   const float bar = height_of_rows(where.w) > where.h - theme.px(24) ? theme.px(14) : 0;
   Rect head = where.take_top(theme.px(20));
   head.take_right(bar);
-  const Columns columns = columns_of(theme, head, attempts);
+  const CriterionColumns columns = columns_of(theme, head, attempts);
   draw_text(columns.name, theme.small_text, colour::kFaint, "Most lost first");
   draw_text(columns.bars, theme.small_text, colour::kFaint, "Earned");
   draw_text(columns.lost, theme.small_text, colour::kFaint, "Lost points", Align::right);

@@ -18,7 +18,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kRow = 46;  // of two lines
+constexpr float kLearnerRow = 46;  // of two lines
 
 std::string counted(int count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -186,7 +186,7 @@ LearnersAnswer LearnersPanel::draw_head(const Theme& theme, Rect head, const Lea
 
 void LearnersPanel::draw_learners(const Theme& theme, const Rect& panel, LearnersPage& page) {
   fill(panel, colour::kPanel, theme.px(8));
-  const float height = theme.px(kRow);
+  const float height = theme.px(kLearnerRow);
   const ScrollArea area(theme, "learners", whole_rows(panel.inset(theme.px(8), theme.px(8)), height),
                         height * float(page.learners().size()));
   Rect rest = area.content();
@@ -258,7 +258,7 @@ void LearnersPanel::draw_criteria(const Theme& theme, const Rect& panel, const L
 void LearnersPanel::draw_attempts(const Theme& theme, const Rect& panel, LearnersPage& page) {
   Rect rest = begin_panel(theme, panel, "Attempts");
   rest = {rest.x - theme.px(10), rest.y, rest.w + theme.px(20), rest.h};
-  const float height = theme.px(kRow);
+  const float height = theme.px(kLearnerRow);
   const ScrollArea area(theme, "attempts", whole_rows(rest, height), height * float(page.attempts().size()));
   std::int64_t clicked = 0;
   const LearnersChoice& choice = page.choice();

@@ -11,7 +11,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kWidth = 860, kLabel = 250, kRow = 42, kReset = 80, kChoose = 90, kGap = 8;
+constexpr float kWidth = 860, kLabel = 250, kSettingRow = 42, kReset = 80, kChoose = 90, kGap = 8;
 constexpr const char *kHere = "18944", *kNetwork = "0.0.0.0:18944";
 
 /// Draws the page's rows from the top down.
@@ -56,7 +56,7 @@ public:
   /// Returns the height of a path's row, in which a long path has several lines.
   static float path_height(const Theme& theme, const std::string& text) {
     const float width = theme.px(kWidth - 2 * 28 - kLabel - kReset - kChoose - 2 * kGap);
-    return std::max(theme.px(kRow), paragraph_height(theme.text, text, width) + theme.px(12));
+    return std::max(theme.px(kSettingRow), paragraph_height(theme.text, text, width) + theme.px(12));
   }
 
   /// Draws a setting that cannot be changed now.
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  Rect next(const char* label) { return next(label, theme_.px(kRow)); }
+  Rect next(const char* label) { return next(label, theme_.px(kSettingRow)); }
   Rect next(const char* label, float height) {
     Rect line = rest_.take_top(height).inset(0, theme_.px(4));
     draw_text(line.take_left(theme_.px(kLabel)), theme_.text, colour::kText, label);
@@ -102,7 +102,8 @@ SettingsAnswer draw_settings(const Theme& theme, const Rect& screen, const Prefe
   for (const auto& [path, otherwise] :
        {std::pair{&wanted.out, &out_text}, {&wanted.cases, &cases_text}, {&wanted.results, &results_text}})
     paths += Rows::path_height(theme, path->empty() ? *otherwise : path->string());
-  Rect sheet = begin_overlay(theme, screen, {theme.px(kWidth), theme.px(2 * 24 + 28 + 6 * kRow + 3 * 38 + 60) + paths});
+  Rect sheet =
+      begin_overlay(theme, screen, {theme.px(kWidth), theme.px(2 * 24 + 28 + 6 * kSettingRow + 3 * 38 + 60) + paths});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Settings");
   Rect buttons = sheet.take_bottom(theme.px(38));
   Rows rows(theme, sheet, places);

@@ -8,7 +8,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kMargin = 8, kTitle = 300, kKeep = 150;
+constexpr float kTitleWidth = 300, kKeep = 150;
 
 /// Returns what to do next.
 std::string prompt(const Author& author) {
@@ -44,7 +44,7 @@ void draw_author_panel(const Theme& theme, const Rect& panel, Trainer& trainer, 
                      frozen ? "The picture shows no structure and no landmark of this case."
                             : "Hold the probe as a learner is to hold it, then freeze the picture (Space).");
   }
-  Rect title = rest.take_left(theme.px(kTitle));
+  Rect title = rest.take_left(theme.px(kTitleWidth));
   title.h = theme.px(kChoiceRow);
   places["text_field"] = title;
   author.title(field.draw(theme, title, author.title(), "Title of the view"));

@@ -16,7 +16,7 @@ std::string tip_of(const Theme& theme, const Probe& probe) {
 }
 
 /// Widths of the console's parts, and the gaps between them.
-constexpr float kProbes = 112, kButtons = 276, kTimeGain = 150, kMargin = 16, kGap = 28, kKnobGap = 18;
+constexpr float kProbes = 112, kButtons = 276, kTimeGain = 150, kColumnGap = 28, kKnobGap = 18;
 constexpr int kColumns = 4, kRows = 2;
 
 void draw_probe_choice(const Theme& theme, Rect where, Session& session, std::map<std::string, Rect>& places) {
@@ -110,7 +110,7 @@ bool knobs_fit(const Theme& theme, float panel_width) {
   widest.dynamic_range_db = Machine::kMostDynamicRange_db;
   widest.persistence = Machine::kMostPersistence;
   widest.speckle_reduction = 1;
-  const float others = kProbes + kButtons + kTimeGain + 3 * kGap + 2 * kMargin + (kColumns - 1) * kKnobGap;
+  const float others = kProbes + kButtons + kTimeGain + 3 * kColumnGap + 2 * kWideMargin + (kColumns - 1) * kKnobGap;
   const float width = (panel_width - theme.px(others)) / kColumns;
   const std::vector<Knob> knobs = knobs_of(theme, widest);
   return std::all_of(knobs.begin(), knobs.end(),
@@ -145,8 +145,8 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
                                   const std::function<void(const std::function<void()>&)>& attempt,
                                   std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
-  Rect rest = panel.inset(theme.px(kMargin), theme.px(10));
-  const float gap = theme.px(kGap);
+  Rect rest = panel.inset(theme.px(kWideMargin), theme.px(10));
+  const float gap = theme.px(kColumnGap);
   draw_probe_choice(theme, rest.take_left(theme.px(kProbes)), session, places);
   rest.take_left(gap);
 

@@ -11,32 +11,32 @@
 namespace insonate::ui {
 namespace {
 
-struct Words {
+struct EffectWords {
   std::string_view effect;
   const char* title;
   const char* tip;
 };
-constexpr std::array kWords{
-    Words{"absorption", "Absorption", "Sound gets weaker on its way, the more so at a high frequency."},
-    Words{"waves", "Waves", "Echoes add up as waves. Off: the sums of the paper that the model follows."},
-    Words{"speckle", "Speckle", "The grain that scatterers smaller than the beam make. Off: their mean."},
-    Words{"focused_beam", "Focused beam", "The beam is narrowest at its focus. Off: equally wide at every depth."},
-    Words{"slice_thickness", "Slice thickness", "The picture shows a slice of some mm. Off: a plane."},
-    Words{"reverberation", "Reverberation", "Sound bounces between strong surfaces: comet tails, tails of ribs."},
-    Words{"face_reverberation", "A-lines", "Sound bounces between gas or bone and the probe's face."},
-    Words{"mirror_image", "Mirror images", "Gas shows what lies before it once more behind it."},
-    Words{"edge_shadow", "Edge shadows", "Round edges refract the sound, and dark lines run down from them."},
-    Words{"clutter", "Clutter", "Side lobes and layers of the body wall bring haze into fluid and shadows."},
-    Words{"noise", "Noise", "The receiver's own noise, which shows where time gain is high."},
-    Words{"two_way", "Two-way loss", "Echoes get weaker on their way back, too."},
-    Words{"focus_mm", "Focus", "The depth at which the transmitted beam is narrowest."},
-    Words{"f_number", "F-number", "Focus over aperture: a small one is a narrow beam at its focus."},
-    Words{"scattering_db", "Scattering", "The echo of tissue against that of its surfaces."},
-    Words{"grey_map", "Grey map", "How echoes become grey levels."},
+constexpr EffectWords kWords[] = {
+    {"absorption", "Absorption", "Sound gets weaker on its way, the more so at a high frequency."},
+    {"waves", "Waves", "Echoes add up as waves. Off: the sums of the paper that the model follows."},
+    {"speckle", "Speckle", "The grain that scatterers smaller than the beam make. Off: their mean."},
+    {"focused_beam", "Focused beam", "The beam is narrowest at its focus. Off: equally wide at every depth."},
+    {"slice_thickness", "Slice thickness", "The picture shows a slice of some mm. Off: a plane."},
+    {"reverberation", "Reverberation", "Sound bounces between strong surfaces: comet tails, tails of ribs."},
+    {"face_reverberation", "A-lines", "Sound bounces between gas or bone and the probe's face."},
+    {"mirror_image", "Mirror images", "Gas shows what lies before it once more behind it."},
+    {"edge_shadow", "Edge shadows", "Round edges refract the sound, and dark lines run down from them."},
+    {"clutter", "Clutter", "Side lobes and layers of the body wall bring haze into fluid and shadows."},
+    {"noise", "Noise", "The receiver's own noise, which shows where time gain is high."},
+    {"two_way", "Two-way loss", "Echoes get weaker on their way back, too."},
+    {"focus_mm", "Focus", "The depth at which the transmitted beam is narrowest."},
+    {"f_number", "F-number", "Focus over aperture: a small one is a narrow beam at its focus."},
+    {"scattering_db", "Scattering", "The echo of tissue against that of its surfaces."},
+    {"grey_map", "Grey map", "How echoes become grey levels."},
 };
 
-const Words& words_of(const Effect& effect) {
-  return *std::ranges::find(kWords, effect.name, &Words::effect);
+const EffectWords& words_of(const Effect& effect) {
+  return *std::ranges::find(kWords, effect.name, &EffectWords::effect);
 }
 
 std::string value_text(const Effect& effect, double value) {

@@ -134,7 +134,7 @@ std::string status_of(const Scenario& scenario, const Step& step) {
   return scenario.order == Scenario::Order::free ? "In any order" : "";
 }
 
-constexpr float kHeight = 66, kMargin = 16, kTracker = 264, kTime = 112, kHold = 190, kGap = 12, kTitle = 25,
+constexpr float kHeight = 66, kTracker = 264, kTime = 112, kHold = 190, kExamGap = 12, kTitleLine = 25,
                 kInstruction = 22;
 
 /// Whether the view is found is what an exam asks.
@@ -152,7 +152,8 @@ std::pair<ImFont*, float> fit_instruction(const Theme& theme, float width, const
 
 float exam_panel_height(const Theme& theme, float width, const Session* session) {
   if (!session || !session->runner()) return theme.px(kHeight);
-  const float others = 2 * kMargin + kTracker + kTime + 2 * kGap + (shows_hold(*session) ? kHold + kGap : 0);
+  const float others =
+      2 * kWideMargin + kTracker + kTime + 2 * kExamGap + (shows_hold(*session) ? kHold + kExamGap : 0);
   const Runner& runner = *session->runner();
   const std::string& text = runner.scenario().steps[runner.live().step].instruction;
   return theme.px(kHeight - kInstruction) + fit_instruction(theme, width - theme.px(others), text).second;
@@ -185,10 +186,10 @@ std::string clock_text(double seconds) {
 void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& session, bool makes_views,
                      const std::string& learner, std::map<std::string, Rect>& places) {
   fill(panel, colour::kPanel, theme.px(4));
-  Rect rest = panel.inset(theme.px(kMargin), 0);
+  Rect rest = panel.inset(theme.px(kWideMargin), 0);
   draw_tracker(theme, rest.take_right(theme.px(kTracker)), session);
-  rest.take_right(theme.px(kGap));
-  const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(kTitle)};
+  rest.take_right(theme.px(kExamGap));
+  const Rect upper{rest.x, rest.y + theme.px(9), rest.w, theme.px(kTitleLine)};
   const Runner* runner = session.runner();
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
@@ -202,10 +203,10 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const Scenario& scenario = runner->scenario();
   const Step& step = scenario.steps[live.step];
   draw_time(theme, rest.take_right(theme.px(kTime)), live, step.counts, session.strict());
-  rest.take_right(theme.px(kGap));
+  rest.take_right(theme.px(kExamGap));
   if (shows_hold(session)) {
     draw_hold(theme, rest.take_right(theme.px(kHold)), session, step.task->words());
-    rest.take_right(theme.px(kGap));
+    rest.take_right(theme.px(kExamGap));
   }
 
   const std::string number = std::to_string(live.step + 1) + " / " + std::to_string(scenario.steps.size());

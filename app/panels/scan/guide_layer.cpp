@@ -9,7 +9,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kMargin = 8, kRow = 22, kBetween = 16, kKeyGap = 8;
+constexpr float kGuideRow = 22, kBetween = 16, kKeyGap = 8;
 
 float key_width(const Theme& theme, const std::string& key) {
   return text_width(theme.small_text, key) + theme.px(14);
@@ -40,14 +40,14 @@ void draw_ghost(const Theme& theme, const Rect& space, const Guiding& guiding, c
 }
 
 float guide_strip_height(const Theme& theme) {
-  return theme.px(2 * kMargin + 2 * kRow);
+  return theme.px(2 * kMargin + 2 * kGuideRow);
 }
 
 std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guiding& guiding, bool counted) {
   fill(strip, colour::kPanel, theme.px(4));
   if (guiding.there) outline(strip, colour::kAccent, theme.px(4));
   Rect rest = strip.inset(theme.px(16), theme.px(kMargin));
-  Rect head = rest.take_top(theme.px(kRow));
+  Rect head = rest.take_top(theme.px(kGuideRow));
   const std::string title = "Guide: " + (guiding.view->title.empty() ? guiding.view->name : guiding.view->title);
   draw_text(head.take_left(std::min(head.w, text_width(theme.strong, title))), theme.strong, colour::kText, title);
   head.take_left(theme.px(16));

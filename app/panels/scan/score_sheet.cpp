@@ -14,12 +14,12 @@ std::string outcome_text(const StepResult& step) {
   return in_words(step.outcome) + after + "; " + score_in_words(step);
 }
 
-struct Columns {
+struct SheetColumns {
   Rect criterion, value, limits, points;
 };
 
-Columns columns_of(const Theme& theme, Rect row) {
-  Columns columns;
+SheetColumns columns_of(const Theme& theme, Rect row) {
+  SheetColumns columns;
   columns.points = row.take_right(theme.px(84));
   columns.limits = row.take_right(theme.px(150));
   columns.value = row.take_right(theme.px(90));
@@ -46,7 +46,7 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result, const
 }
 
 void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) {
-  const Columns columns = columns_of(theme, row);
+  const SheetColumns columns = columns_of(theme, row);
   const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
   const ImU32 ink = mark.fails_exam() ? colour::kRed : share < 0.5 ? colour::kAmber : colour::kText;
   const std::string name = (mark.critical ? "Critical: " : "") + title_of(mark.metric);
@@ -67,7 +67,7 @@ void draw_fact(const Theme& theme, Rect row, const std::pair<std::string, std::s
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {
-  const Columns columns = columns_of(theme, row);
+  const SheetColumns columns = columns_of(theme, row);
   draw_text(columns.value, theme.small_text, colour::kFaint, "Value", Align::right);
   draw_text(columns.limits, theme.small_text, colour::kFaint, "All points \u2013 none", Align::right);
   draw_text(columns.points, theme.small_text, colour::kFaint, "Points", Align::right);

@@ -13,7 +13,7 @@
 namespace insonate::ui {
 namespace {
 
-constexpr float kMargin = 8, kLine = 24, kTurns = 36;
+constexpr float kStripLine = 24, kTurns = 36;
 constexpr float kRight = 320;  ///< of hint and going on
 
 /// What a step lets the learner choose from, as it is shown.
@@ -126,13 +126,13 @@ bool has_controls(const StepInput& input) {
   return !std::holds_alternative<std::monostate>(input) && !std::holds_alternative<PointInput>(input);
 }
 
-struct Words {
+struct StripWords {
   std::string text;
   ImU32 ink;
 };
 
 /// What the strip says: that the step is not done, the hints, or else what to do now.
-Words words_of(const Session& session, const PictureTools& tools, const StepControls& controls) {
+StripWords words_of(const Session& session, const PictureTools& tools, const StepControls& controls) {
   if (controls.asks_again())
     return {"This step is not done yet. Going on leaves it as it is, for good.", colour::kAmber};
   const LiveExam& live = session.runner()->live();
@@ -150,11 +150,11 @@ float words_width(const Theme& theme, float panel_width) {
 /// Returns the height of the words, in a line of their own below controls, or in place of them, where they are larger.
 float words_height(const Theme& theme, const std::string& text, bool below_controls, float width) {
   return std::max(paragraph_height(below_controls ? theme.small_text : theme.text, text, width),
-                  theme.px(below_controls ? kLine : kChoiceRow));
+                  theme.px(below_controls ? kStripLine : kChoiceRow));
 }
 
 /// Draws one line in the middle of its height, several from the top on.
-void draw_words(const Rect& where, ImFont* font, const Words& words) {
+void draw_words(const Rect& where, ImFont* font, const StripWords& words) {
   const float height = paragraph_height(font, words.text, where.w);
   draw_paragraph({where.x, where.y + std::round((where.h - height) / 2), where.w, height}, font, words.ink, words.text);
 }
@@ -215,7 +215,7 @@ void draw_task_panel(const Theme& theme, const Rect& panel, Session& session, Pi
   }
   rest.take_right(theme.px(16));
 
-  const Words words = words_of(session, tools, controls);
+  const StripWords words = words_of(session, tools, controls);
   if (!has_controls(input)) return draw_words(rest, theme.text, words);
   draw_words(rest.take_bottom(words_height(theme, words.text, true, rest.w)), theme.small_text, words);
   Rect row = rest;

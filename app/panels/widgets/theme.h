@@ -42,6 +42,9 @@ struct Writing {
 std::vector<Writing> writings();
 }  // namespace colour
 
+/// Margins inside of a box and of a bar, in the units of Theme::px().
+inline constexpr float kMargin = 8, kWideMargin = 16;
+
 /// Returns a depth in the person's unit: "16.0 cm" or "160 mm".
 std::string depth_text(const Look& look, double depth_mm);
 

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kUsual_s = 60;
 constexpr auto kStep = std::chrono::milliseconds(10);
-constexpr double kStateEvery_s = 0.1;
 constexpr int kNotConverged = 3;
 
 }  // namespace

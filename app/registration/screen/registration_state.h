@@ -16,6 +16,9 @@ struct RegistrationScreen {
   std::map<std::string, ui::Rect> places;  ///< of buttons and pictures
 };
 
+/// So often a state file is written again.
+inline constexpr double kStateEvery_s = 0.1;
+
 /// Writes what a live registration is doing as JSON, for programs that drive it. Throws InputError if it cannot.
 void write_registration_state(const std::filesystem::path& file, const LiveSession& session,
                               const RegistrationScreen& screen = RegistrationScreen());

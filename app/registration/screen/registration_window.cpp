@@ -1,9 +1,8 @@
 #include "app/registration/screen/registration_window.h"
 
-#include <epoxy/gl.h>
-// After epoxy, which declares OpenGL.
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -36,7 +35,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60, kStateEvery_s = 0.1;
+constexpr double kFrame_s = 1.0 / 60;
 
 struct ImGuiOwner {
   explicit ImGuiOwner(GLFWwindow* window) {

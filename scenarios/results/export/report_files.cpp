@@ -24,16 +24,16 @@ std::string in_minutes(std::int64_t since_1970_ms) {
 /// Returns the score with the comments as its last key. Without any it returns the score to the byte.
 std::string with_comments(const Attempt& attempt) {
   if (attempt.comments.empty()) return attempt.score_json;
-  using Json = nlohmann::ordered_json;
-  Json score = Json::parse(attempt.score_json);
-  Json& list = score["comments"] = Json::array();
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson score = OrderedJson::parse(attempt.score_json);
+  OrderedJson& list = score["comments"] = OrderedJson::array();
   for (const Comment& comment : attempt.comments)
     list.push_back({{"comment", comment.number},
                     {"author", comment.author},
                     {"written", utc_time(comment.written_ms)},
                     {"text", comment.text}});
   // Another program may have written to the database. Invalid UTF-8 must not prevent the score from being written.
-  return score.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return score.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

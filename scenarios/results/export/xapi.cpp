@@ -12,7 +12,7 @@
 namespace insonate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 const std::string kOwn = "https://insonate.invalid/";
 const std::string kVerbs = "http://adlnet.gov/expapi/verbs/";
@@ -30,16 +30,17 @@ std::string duration(double seconds) {
 }
 
 /// Returns every metric with a value, by its name, for the exam and for each step.
-Json metrics_of(const ExamResult& result) {
-  Json exam = Json::object(), steps = Json::array();
-  for (const StepResult& step : result.steps) steps.push_back({{"title", step.title}, {"metrics", Json::object()}});
+OrderedJson metrics_of(const ExamResult& result) {
+  OrderedJson exam = OrderedJson::object(), steps = OrderedJson::array();
+  for (const StepResult& step : result.steps)
+    steps.push_back({{"title", step.title}, {"metrics", OrderedJson::object()}});
   for (const Measured& m : measured(result))
     if (m.value) (m.step ? steps[*m.step]["metrics"] : exam)[std::string(info(m.metric).name)] = *m.value;
   return {{kOwn + "extensions/metrics", exam}, {kOwn + "extensions/steps", steps}};
 }
 
-Json score_of(const ExamResult& result) {
-  Json score = {{"scaled", result.percent / 100}};
+OrderedJson score_of(const ExamResult& result) {
+  OrderedJson score = {{"scaled", result.percent / 100}};
   // The specification requires max above min, and raw between them.
   if (result.points_possible > 0) score.update({{"raw", result.points}, {"min", 0}, {"max", result.points_possible}});
   return score;
@@ -49,39 +50,39 @@ Json score_of(const ExamResult& result) {
 
 std::string xapi_statements(const Attempt& attempt, const ExamResult& result, const std::string& home_page) {
   const std::string home = home_page.empty() ? kOwn + "databases/" + attempt.database : home_page;
-  const Json actor = {{"objectType", "Agent"}, {"account", {{"homePage", home}, {"name", attempt.learner}}}};
-  const Json object = {
+  const OrderedJson actor = {{"objectType", "Agent"}, {"account", {{"homePage", home}, {"name", attempt.learner}}}};
+  const OrderedJson object = {
       {"objectType", "Activity"},
       {"id", kOwn + "scenarios/" + result.provenance.scenario_digest},
       {"definition", {{"name", {{"en", result.title}}}, {"type", "http://adlnet.gov/expapi/activities/assessment"}}}};
-  Json extensions = {{kOwn + "extensions/case_digest", result.provenance.case_digest},
-                     {kOwn + "extensions/scoring_version", result.provenance.scoring_version}};
+  OrderedJson extensions = {{kOwn + "extensions/case_digest", result.provenance.case_digest},
+                            {kOwn + "extensions/scoring_version", result.provenance.scoring_version}};
   if (result.provenance.mode) extensions[kOwn + "extensions/mode"] = name_of(result.provenance.mode);
-  const Json context = {{"registration", attempt.uuid},
-                        {"platform", "Insonate " + result.provenance.program_version},
-                        {"language", "en"},
-                        {"extensions", extensions}};
+  const OrderedJson context = {{"registration", attempt.uuid},
+                               {"platform", "Insonate " + result.provenance.program_version},
+                               {"language", "en"},
+                               {"extensions", extensions}};
   constexpr double kLongest_s = 1e9;  // of what a file of another origin may state, so that the start is a time
   const std::int64_t start_ms =
       attempt.finished_ms - std::llround(1000 * std::clamp(result.motion.time_s, 0.0, kLongest_s));
 
-  Json statements = Json::array();
-  const auto state = [&](const char* verb, std::int64_t at_ms, const Json& outcome) {
-    Json statement = {{"id", statement_id(attempt.uuid, int(statements.size()) + 1)},
-                      {"version", "1.0.3"},
-                      {"actor", actor},
-                      {"verb", {{"id", kVerbs + verb}, {"display", {{"en", verb}}}}},
-                      {"object", object},
-                      {"context", context},
-                      {"timestamp", utc_time(at_ms)}};
+  OrderedJson statements = OrderedJson::array();
+  const auto state = [&](const char* verb, std::int64_t at_ms, const OrderedJson& outcome) {
+    OrderedJson statement = {{"id", statement_id(attempt.uuid, int(statements.size()) + 1)},
+                             {"version", "1.0.3"},
+                             {"actor", actor},
+                             {"verb", {{"id", kVerbs + verb}, {"display", {{"en", verb}}}}},
+                             {"object", object},
+                             {"context", context},
+                             {"timestamp", utc_time(at_ms)}};
     if (!outcome.is_null()) statement["result"] = outcome;
     statements.push_back(std::move(statement));
   };
   state("initialized", start_ms, nullptr);
   state("attempted", start_ms, nullptr);
   if (result.complete) {
-    const Json done = {{"completion", true}, {"duration", duration(result.motion.time_s)}};
-    Json judged = {{"score", score_of(result)}};
+    const OrderedJson done = {{"completion", true}, {"duration", duration(result.motion.time_s)}};
+    OrderedJson judged = {{"score", score_of(result)}};
     judged.update(done);
     judged["extensions"] = metrics_of(result);
     if (is_of(result.provenance.mode, AttemptMode::exam)) {
@@ -92,7 +93,7 @@ std::string xapi_statements(const Attempt& attempt, const ExamResult& result, co
       state("completed", attempt.finished_ms, judged);
     }
   }
-  return statements.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return statements.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace insonate

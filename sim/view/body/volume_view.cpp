@@ -73,13 +73,13 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   return p;
 }
 
-struct Inputs {
+struct VolumeInputs {
   int width, height;
   const PatientTextures* patient;
   OrbitCamera camera;
   PlaneState plane;
   VolumeStyle style;
-  bool operator==(const Inputs&) const = default;
+  bool operator==(const VolumeInputs&) const = default;
 };
 
 /// Measures how long drawing takes, from whole pictures: parts differ, because the patient lies in the middle. The
@@ -149,16 +149,16 @@ struct VolumeView::State {
   Layers layers;
   Pace pace, finish_pace;
 
-  std::optional<Inputs> drawn;
+  std::optional<VolumeInputs> drawn;
   int scale = 1;         // scale of the picture shown
   int moving_scale = 1;  // scale of the last picture drawn while inputs changed
   int finish_scale = 1;  // scale of the plane in that picture
   int full_rows = 0;     // rows of the full picture drawn so far
   long renders = 0;
 
-  void bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness);
-  void draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row);
-  void draw_moving(const Inputs& inputs, const UltrasoundPlane& plane);
+  void bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness);
+  void draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row);
+  void draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane);
 };
 
 namespace {
@@ -191,7 +191,7 @@ gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& c
           {"VOXELS_PER_CELL", std::to_string(MacroCells::kSide)}};
 }
 
-void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane, int width, int height,
+void VolumeView::State::bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height,
                              int coarseness) {
   const VolumeViewParameters values =
       parameters_for(*inputs.patient, inputs.camera, plane, inputs.style, width, height, coarseness);
@@ -208,7 +208,8 @@ void VolumeView::State::bind(const Inputs& inputs, const UltrasoundPlane& plane,
   classified.bind();
 }
 
-void VolumeView::State::draw_whole(const Inputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row) {
+void VolumeView::State::draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, int first_row,
+                                   int end_row) {
   full.resize(inputs.width, inputs.height);
   bind(inputs, plane, inputs.width, inputs.height, 1);
   const ScopedDrawTarget drawing(full.framebuffer, first_row, end_row);
@@ -220,7 +221,7 @@ void VolumeView::State::draw_whole(const Inputs& inputs, const UltrasoundPlane& 
   ++renders;
 }
 
-void VolumeView::State::draw_moving(const Inputs& inputs, const UltrasoundPlane& plane) {
+void VolumeView::State::draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
   const int coarse_width = scaled(inputs.width, scale), coarse_height = scaled(inputs.height, scale);
   layers.resize(coarse_width, coarse_height);
   bind(inputs, plane, coarse_width, coarse_height, scale);
@@ -255,7 +256,7 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
                                       const UltrasoundPlane& plane, const VolumeStyle& style,
                                       const VolumeBudget& budget) {
   State& s = *state_;
-  const Inputs inputs{width, height, &patient, camera, PlaneState(plane), style};
+  const VolumeInputs inputs{width, height, &patient, camera, PlaneState(plane), style};
   const double pixels = double(width) * height;
   if (s.drawn != inputs) {
     if (s.drawn && s.drawn->style.ct.has_value() != style.ct.has_value())
@@ -294,7 +295,7 @@ int VolumeView::scale() const {
 }
 
 double VolumeView::full_picture_ms() const {
-  const std::optional<Inputs>& drawn = state_->drawn;
+  const std::optional<VolumeInputs>& drawn = state_->drawn;
   return drawn ? state_->pace.pixel_ms().value_or(0) * drawn->width * drawn->height : 0;
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/core/run_program.h"
 #include "tests/core/temporary_folder.h"
 #include "tools/cli/program.h"
 
@@ -47,10 +48,6 @@ struct Sample {
     add_self_descriptions(app, {});
   }
 };
-
-bool contains(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 /// Returns what bash offers for a line that ends at the cursor: the calls of compopt, then the words of COMPREPLY.
 /// @param words  the line's words as bash splits it, which makes words of = and :

@@ -11,7 +11,6 @@ namespace insonate::bench {
 namespace {
 
 constexpr int kPlanes = 64;
-constexpr double kSwept_deg = 60, kPivot_mm = 30;
 
 // Returns a grid of the requested number of voxels over all lines of the sweep.
 Grid grid_over(const Sweep& sweep, const glm::ivec3& size) {

@@ -23,10 +23,10 @@ namespace insonate::bench {
 namespace {
 
 // As in the paper's Table 1.
-constexpr int kWidth = 640, kHeight = 480, kSteps = 512;
+constexpr int kTableWidth = 640, kTableHeight = 480, kSteps = 512;
 // Errors are measured on smaller pictures, because the reference takes tens of milliseconds per pixel.
 constexpr int kErrorWidth = 128, kErrorHeight = 96;
-constexpr double kFiner = 10;  // steps of the reference per half voxel
+constexpr double kFinerSteps = 10;  // steps of the reference per half voxel
 
 Volume<std::int16_t> ct_of(const AcousticVolume& acoustic) {
   Volume<std::int16_t> ct;
@@ -54,7 +54,7 @@ struct Stage {
     gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
     patient.emplace(simulator.volume_texture(), ct, Volume<std::uint8_t>(), view::OrganColours());
     probe.lines = 512;
-    settings = settings_of(scene, {512, 512, kWidth, kHeight}, false);
+    settings = settings_of(scene, {512, 512, kTableWidth, kTableHeight}, false);
     camera = view::OrbitCamera::facing(ct.grid, pose);
     style.cut = false;
     style.ct.emplace();
@@ -73,18 +73,18 @@ struct Stage {
     plane.geometry = simulator.geometry();
     plane.probe = probe;
     plane.patient_from_probe = pose;
-    view.render(kWidth, kHeight, *patient, camera, plane, style);
+    view.render(kTableWidth, kTableHeight, *patient, camera, plane, style);
     glFinish();
   }
 };
 
 /// A row of the paper's Table 1: what changes from frame to frame.
-struct Change {
+struct TableRow {
   const char* name;
   std::function<void(Stage&, int frame)> make;
 };
 
-const std::array<Change, 6> kChanges{{
+const std::array<TableRow, 6> kTableRows{{
     {"nothing", [](Stage&, int) {}},
     {"volume pose", [](Stage& s, int) { s.camera.orbit(1, 0.3); }},
     {"transducer pose", [](Stage& s, int frame) { s.pose = wandering(s.pose, frame); }},
@@ -118,16 +118,16 @@ Table measure_view(const Request& request) {
   for_each_scene(request, [&](const Scene& scene) {
     for (const view::TransferFunction& look : looks_to_measure()) {
       std::printf("\n%s, %s: simulation and volume rendering, %d x %d, up to %d steps a ray\n", scene.name.c_str(),
-                  look.name.c_str(), kWidth, kHeight, kSteps);
+                  look.name.c_str(), kTableWidth, kTableHeight, kSteps);
       std::printf("%-22s %10s  %-20s %8s  %s\n", "what changes", "median ms", "(quartiles)", "frames/s",
                   "without leaps, ms");
       Stage stage(scene, look);
-      for (const Change& change : kChanges) {
+      for (const TableRow& change : kTableRows) {
         std::vector<double> leaping, stepping;
         for (int frame = -2; frame < request.frames; ++frame) {
           change.make(stage, frame);
           stage.style.ct->skips_empty = true;
-          if (frame % 4 == 0 && &change != &kChanges[0]) {  // what leaps save, in the same run
+          if (frame % 4 == 0 && &change != &kTableRows[0]) {  // what leaps save, in the same run
             stage.style.ct->skips_empty = false;
             stepping.push_back(milliseconds_of([&] { stage.draw(); }));
             stage.style.ct->skips_empty = true;
@@ -140,8 +140,8 @@ Table measure_view(const Request& request) {
         const double without = spread_of(stepping).median;
         std::printf("%-22s %10.2f  (%.2f to %.2f) %8.1f  %10.1f\n", change.name, ms.median, ms.first_quartile,
                     ms.third_quartile, 1000 / ms.median, without);
-        table.rows.push_back({gl::device_description(), scene.name, look.name, change.name, std::to_string(kWidth),
-                              std::to_string(kHeight), std::to_string(kSteps), std::to_string(request.frames),
+        table.rows.push_back({gl::device_description(), scene.name, look.name, change.name, std::to_string(kTableWidth),
+                              std::to_string(kTableHeight), std::to_string(kSteps), std::to_string(request.frames),
                               cell_of(ms.first_quartile, 3), cell_of(ms.median, 3), cell_of(ms.third_quartile, 3),
                               cell_of(1000 / ms.median, 1), stepping.empty() ? "" : cell_of(without, 3)});
       }
@@ -163,7 +163,7 @@ Table measure_view_front(const Request& request) {
       stage.style.ct->body_only = false;
       const double half_voxel_mm = 0.5 * stage.patient->ct_voxel_mm();
       const view::CtReference reference(stage.ct, *stage.style.ct, stage.camera, kErrorWidth, kErrorHeight,
-                                        half_voxel_mm / kFiner);
+                                        half_voxel_mm / kFinerSteps);
       std::vector<glm::dvec3> truth(std::size_t(kErrorWidth) * kErrorHeight);
       tbb::parallel_for(0, kErrorHeight, [&](int y) {
         for (int x = 0; x < kErrorWidth; ++x)
@@ -171,7 +171,7 @@ Table measure_view_front(const Request& request) {
               255.0 * glm::clamp(reference.colour(x + 0.5, y + 0.5), 0.0, 1.0);
       });
       std::printf("\n%s, %s: a picture of %d x %d, error of one of %d x %d\n", scene.name.c_str(), look.name.c_str(),
-                  kWidth, kHeight, kErrorWidth, kErrorHeight);
+                  kTableWidth, kTableHeight, kErrorWidth, kErrorHeight);
       std::printf("step, voxels  classification  shaded  jittered  median ms  PSNR, dB  largest\n");
       std::vector<Cost> costs;
       const std::size_t first_row = table.rows.size();
@@ -188,7 +188,7 @@ Table measure_view_front(const Request& request) {
               for (int frame = -1; frame < request.frames; ++frame) {
                 stage.view.forget();
                 const double ms = milliseconds_of([&] {
-                  stage.view.render(kWidth, kHeight, *stage.patient, stage.camera, view::UltrasoundPlane(),
+                  stage.view.render(kTableWidth, kTableHeight, *stage.patient, stage.camera, view::UltrasoundPlane(),
                                     stage.style);
                   glFinish();
                 });

@@ -128,12 +128,12 @@ double scan_s() {
 }
 
 /// What the trainer showed of a scan, and the share of a core that it takes afterwards, while nothing changes.
-struct Run {
+struct WindowRun {
   Frames frames;
   double rest_core = 0, rest_from_s = 0;
 };
 
-Run run_trainer(const WindowSize& size, double seconds, bool parts) {
+WindowRun run_trainer(const WindowSize& size, double seconds, bool parts) {
   const FramesFile files;
   std::vector<std::string> arguments{"--width",       std::to_string(size.width),
                                      "--height",      std::to_string(size.height),
@@ -142,7 +142,7 @@ Run run_trainer(const WindowSize& size, double seconds, bool parts) {
                                      "--out",         files.out(),
                                      "--tracker",     "replay:" + scan().string()};
   if (parts) arguments.push_back("--frame-parts");
-  Run run;
+  WindowRun run;
   RunningTrainer trainer(arguments);
   if (!parts) {
     const auto sleep = [](double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); };
@@ -170,7 +170,7 @@ std::vector<std::size_t> settled_pictures(const Frames& frames) {
   return rows;
 }
 
-double shown_per_s_at_rest(const Run& run) {
+double shown_per_s_at_rest(const WindowRun& run) {
   int shown = 0;
   for (std::size_t row = 0; row < run.frames.table.rows.size(); ++row) {
     const double end_s = run.frames.number(row, "end_s");
@@ -197,7 +197,7 @@ Table measure_window(const std::vector<WindowSize>& sizes) {
   std::printf("\n");
   const double duration_s = scan_s();
   for (const WindowSize& size : sizes) {
-    const Run run = run_trainer(size, duration_s + kLoad_s + kRest_s + 1, false);
+    const WindowRun run = run_trainer(size, duration_s + kLoad_s + kRest_s + 1, false);
     std::vector<double> ends_s, intervals_ms, quality;
     for (const std::size_t row : settled_pictures(run.frames)) {
       ends_s.push_back(run.frames.number(row, "end_s"));

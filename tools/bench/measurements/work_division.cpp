@@ -16,8 +16,6 @@
 namespace insonate::bench {
 namespace {
 
-constexpr double kSwept_deg = 60, kPivot_mm = 30;
-
 /// Lines that are traversed in one dispatch.
 struct LineSet {
   int planes, lines, samples;
