@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace insonate {
 namespace {
@@ -29,8 +30,11 @@ glm::dmat4 exponential(const glm::dmat3& s) {
 }  // namespace
 
 glm::dmat4 Motion::at(std::span<const double> x) const {
+  const bool is_affine = x.size() == parameters_of(Freedom::affine);
+  if (!is_affine && x.size() != parameters_of(Freedom::rigid))
+    throw std::invalid_argument("a motion has 6 or 12 parameters");
   glm::dmat4 turned = rotation(glm::dvec3(x[3], x[4], x[5]) / radius_mm);
-  if (freedom == Freedom::affine) {
+  if (is_affine) {
     const glm::dvec3 stretch = glm::dvec3(x[6], x[7], x[8]) / radius_mm,
                      shear = glm::dvec3(x[9], x[10], x[11]) / radius_mm;
     turned *=
@@ -41,10 +45,9 @@ glm::dmat4 Motion::at(std::span<const double> x) const {
   return there * turned * back * ct_from_sweep;
 }
 
-Motion motion_about(const std::vector<glm::dvec3>& points, const glm::dmat4& ct_from_sweep, Freedom freedom) {
+Motion motion_about(const std::vector<glm::dvec3>& points, const glm::dmat4& ct_from_sweep) {
   Motion motion;
   motion.ct_from_sweep = ct_from_sweep;
-  motion.freedom = freedom;
   glm::dvec3 sum(0.0);
   for (const glm::dvec3& point : points) sum += point;
   const glm::dvec3 middle = sum / double(points.size());

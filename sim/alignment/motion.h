@@ -27,16 +27,15 @@ struct Motion {
   glm::dmat4 ct_from_sweep{1.0};  ///< with all parameters 0
   glm::dvec3 centre_in_ct{0.0};   ///< what turns and stretches leave where it is, mm
   double radius_mm = 50;          ///< above 0
-  Freedom freedom = Freedom::rigid;
 
   /// Returns T(x0..2) R(x3..5) exp(S(x6..11)) about the centre, behind ct_from_sweep. S is symmetric: its diagonal is
   /// x6..8, and x9..11 are its entries yz, xz and xy.
-  /// @param parameters  parameters_of(freedom) of them
+  /// @param parameters  as many as parameters_of() gives for a freedom; otherwise it throws std::invalid_argument
   glm::dmat4 at(std::span<const double> parameters) const;
 };
 
 /// Returns the motion about the middle of points.
 /// @param points  in the sweep's frame, at least one
-Motion motion_about(const std::vector<glm::dvec3>& points, const glm::dmat4& ct_from_sweep, Freedom freedom);
+Motion motion_about(const std::vector<glm::dvec3>& points, const glm::dmat4& ct_from_sweep);
 
 }  // namespace insonate

@@ -17,7 +17,7 @@
 namespace insonate {
 namespace {
 
-enum Stage { kScatter, kWide, kFine, kAffine };
+enum Stage { kScatter, kWide, kFine, kAffine, kElsewhere };
 
 constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
 constexpr std::size_t kFineStarts = 4;
@@ -31,6 +31,10 @@ constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5;
 constexpr std::size_t kMostLooks = 5;  // around, each time at other places, while the similarity still rises
 constexpr double kRise = 0.002;        // of the similarity
 constexpr double kMostStretch = 0.15;
+constexpr std::size_t kPlacesElsewhere = 48;
+constexpr double kElsewhere_mm = 40, kElsewhere_deg = 30, kLeastElsewhere_mm = 20;
+constexpr double kStandsOut =
+    1.5;  // images of noise end 1.3 times above elsewhere, sweeps at their place 2 to 3.5 times
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
                                           const WeinSettings& wein, Measure measure) {
@@ -118,12 +122,26 @@ struct Run {
     const double pixels = independent_pixels(compared);
     Uncertainty found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
     for (int i = 0; i < kClimbs && !found.is_maximum; ++i) {
-      Optimum higher = maximise_from({end.at}, evaluate, search(2, 0.01, 250)).front();
+      Optimum higher = maximise_from({end.at}, evaluate, search(2, 0.01, 250, end.at.size())).front();
       if (higher.value <= end.value) break;
       end = std::move(higher);
       found = uncertainty_at(end.at, result.motion, evaluate, pixels, targets);
     }
     return found;
+  }
+
+  // Returns the similarity that a tenth of the places far from the end exceed: so much is similar by chance.
+  double elsewhere(const Optimum& end, const EvaluateAll& evaluate) const {
+    std::vector<Parameters> places;
+    for (Parameters& place : scattered_motions(0, kPlacesElsewhere, kElsewhere_mm,
+                                               glm::radians(kElsewhere_deg) * result.motion.radius_mm)) {
+      place.resize(end.at.size());
+      for (std::size_t i = 0; i < place.size(); ++i) place[i] += end.at[i];
+      if (apart(place, end.at) >= kLeastElsewhere_mm) places.push_back(std::move(place));
+    }
+    std::vector<double> values = evaluate(places);
+    std::ranges::sort(values);
+    return values.empty() ? 0 : values[values.size() * 9 / 10];
   }
 
   // Finds out how far the result can be trusted.
@@ -137,19 +155,20 @@ struct Run {
       doubt("the search left its range around the start");
     if (!confirmed) doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
+    if (settings.measure == Measure::lc2 && end.value < kStandsOut * result.elsewhere)
+      doubt("places far away are nearly as similar");
     if (settings.measure == Measure::mutual_information) return;
     if (!found.is_maximum) return doubt("the similarity has no maximum there");
     result.deviation = found.deviation;
     result.expected_error_mm = found.expected_error_mm;
   }
 
-  LocalSearch search(double first_step, double tolerance, int most) const {
+  LocalSearch search(double first_step, double tolerance, int most, std::size_t parameters = 6) const {
     const double mm = settings.search_mm + 20,
                  turn = (glm::radians(settings.search_deg) * result.motion.radius_mm) + 20,
                  stretch = kMostStretch * result.motion.radius_mm;
     LocalSearch local;
-    for (std::size_t i = 0; i < parameters_of(result.motion.freedom); ++i)
-      local.high.push_back(i < 3 ? mm : i < 6 ? turn : stretch);
+    for (std::size_t i = 0; i < parameters; ++i) local.high.push_back(i < 3 ? mm : i < 6 ? turn : stretch);
     for (const double bound : local.high) local.low.push_back(-bound);
     local.first_step = first_step;
     local.tolerance = tolerance;
@@ -198,7 +217,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   const RegistrationSettings& settings = settings_;
   SweepRegistration result;
   Run run{settings, targets_, result, false};
-  result.motion = motion_about(targets_, start, Freedom::rigid);
+  result.motion = motion_about(targets_, start);
   const Parameters none(6, 0.0);
   const EvaluateAll scatter = run.evaluator(*wide_, kScatter), follow = run.evaluator(*wide_, kWide),
                     fine = run.evaluator(*fine_, kFine);
@@ -243,13 +262,13 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
   EvaluateAll last = fine;
   if (settings.freedom == Freedom::affine) {
-    result.motion.freedom = Freedom::affine;
     end.at.resize(parameters_of(Freedom::affine));
     last = run.evaluator(*fine_, kAffine);
-    end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600)).front();
+    end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600, end.at.size())).front();
   }
   const Uncertainty uncertainty = run.climb_on(end, last, compared_);
   result.runner_up = run.rival_of(end, ends);
+  result.elsewhere = run.elsewhere(end, run.evaluator(*fine_, kElsewhere));
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);

@@ -52,8 +52,8 @@ struct Evaluation {
   double similarity = 0;
 };
 
-/// The stages of a registration, from coarse to fine.
-inline constexpr std::array<const char*, 4> kStages{"scatter", "wide", "fine", "affine"};
+/// The stages of a registration, from coarse to fine, and then what is similar by chance.
+inline constexpr std::array<const char*, 5> kStages{"scatter", "wide", "fine", "affine", "elsewhere"};
 
 /// What came of a registration.
 struct SweepRegistration {
@@ -62,6 +62,7 @@ struct SweepRegistration {
   glm::dmat4 ct_from_sweep{1.0};  ///< the map there
   double similarity_before = 0, similarity_after = 0;
   double runner_up = 0;  ///< highest similarity of the fine stage's ends that are another place; 0 if there is none
+  double elsewhere = 0;  ///< similarity that one in ten places exceeds, 20 mm and more away from the end
   std::vector<std::string> doubts;      ///< why it did not converge, as parts of sentences; empty if it did
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
   double expected_error_mm = 0;         ///< root mean square over the target points, from the parameters' covariance

@@ -20,8 +20,8 @@ namespace {
 
 const std::vector<glm::dvec3> kPoints{{10, 0, 0}, {-10, 0, 0}, {0, 30, 0}, {0, -30, 0}, {0, 0, 20}, {0, 0, -20}};
 
-Motion moved(Freedom freedom) {
-  return motion_about(kPoints, glm::translate(glm::dmat4(1.0), glm::dvec3(100, 50, -20)), freedom);
+Motion moved() {
+  return motion_about(kPoints, glm::translate(glm::dmat4(1.0), glm::dvec3(100, 50, -20)));
 }
 
 glm::dvec3 apply(const glm::dmat4& matrix, const glm::dvec3& point) {
@@ -31,7 +31,7 @@ glm::dvec3 apply(const glm::dmat4& matrix, const glm::dvec3& point) {
 }  // namespace
 
 TEST_CASE("a motion without parameters is the start, and turns about the middle of the points") {
-  const Motion motion = moved(Freedom::rigid);
+  const Motion motion = moved();
   CHECK(motion.at(Parameters(6, 0.0)) == motion.ct_from_sweep);
   CHECK(glm::distance(motion.centre_in_ct, glm::dvec3(100, 50, -20)) < 1e-12);
   CHECK(motion.radius_mm == Approx(std::sqrt((2 * 100 + 2 * 900 + 2 * 400) / 6.0)));
@@ -43,7 +43,7 @@ TEST_CASE("a motion without parameters is the start, and turns about the middle 
 }
 
 TEST_CASE("an affine motion stretches and shears without turning") {
-  const Motion motion = moved(Freedom::affine);
+  const Motion motion = moved();
   Parameters x(12, 0.0);
   x[6] = motion.radius_mm * std::log(1.1);
   CHECK(glm::distance(apply(motion.at(x), {10, 30, 0}), motion.centre_in_ct + glm::dvec3(11, 30, 0)) < 1e-9);
@@ -54,4 +54,5 @@ TEST_CASE("an affine motion stretches and shears without turning") {
   CHECK(sheared[1][0] == Approx(sheared[0][1]));
   CHECK(sheared[2][2] == Approx(1));
   CHECK(glm::determinant(sheared) == Approx(1));  // a shear keeps the volume
+  CHECK_THROWS_AS(motion.at(Parameters(7, 0.0)), std::invalid_argument);
 }

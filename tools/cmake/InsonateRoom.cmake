@@ -19,6 +19,12 @@ target_compile_options(insonate_options INTERFACE -Wall -Wextra -Wpedantic -Wsha
                                                   -fPIC $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>
                                                   $<$<BOOL:${INSONATE_WERROR}>:-Werror>)
 
+# For sources that need more than -O2. Under UndefinedBehaviorSanitizer g++ 12 itself crashes on some of them at -O3.
+set(INSONATE_O3 -O3)
+if(CMAKE_CXX_FLAGS MATCHES "fsanitize" OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(INSONATE_O3 "")
+endif()
+
 # ccache needs permission to use a precompiled header in place of its text.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

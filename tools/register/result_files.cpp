@@ -186,6 +186,7 @@ std::string registration_json(const RegistrationReport& report) {
   json["similarity_before"] = found.similarity_before;
   json["similarity_after"] = found.similarity_after;
   json["similarity_of_runner_up"] = found.runner_up;
+  json["similarity_elsewhere"] = found.elsewhere;
   nlohmann::ordered_json parameters;
   for (std::size_t i = 0; i < found.at.size(); ++i) {
     parameters[kParameters[i]]["mm"] = found.at[i];

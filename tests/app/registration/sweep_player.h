@@ -55,7 +55,7 @@ inline Scan make_scan(const AcousticVolume& volume, const TissueTable& table, co
 
 /// Returns a start that is off by some mm and degrees about the middle of what the scan shows.
 inline glm::dmat4 start_off_by(const Scan& scan, const glm::dvec3& mm, double degrees) {
-  const glm::dvec3 middle = motion_about(target_points(scan.sweep), glm::dmat4(1.0), Freedom::rigid).centre_in_ct;
+  const glm::dvec3 middle = motion_about(target_points(scan.sweep), glm::dmat4(1.0)).centre_in_ct;
   return glm::translate(glm::dmat4(1.0), middle + mm) *
          glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(glm::dvec3(1, 2, -1))) *
          glm::translate(glm::dmat4(1.0), -middle) * scan.ct_from_tracker;

@@ -73,7 +73,7 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
                 wanted.images, int(2 * wanted.tilt_deg), int(wanted.slide_mm));
     std::printf(
         "measure      start                      error      expected  verdict  similarity  next    evaluations\n");
-    const glm::dvec3 middle = motion_about(targets, glm::dmat4(1.0), Freedom::rigid).centre_in_ct;
+    const glm::dvec3 middle = motion_about(targets, glm::dmat4(1.0)).centre_in_ct;
     for (const std::string& name : wanted.measures) {
       RegistrationSettings settings = wanted.settings;
       const bool local = name.ends_with(kLocal);
