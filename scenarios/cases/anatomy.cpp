@@ -17,6 +17,7 @@ constexpr double kSectionHalf_mm = 4;        // a vessel's centre is averaged ov
 constexpr double kCourse_mm = 15;            // and its direction is taken between the centres at this distance
 constexpr double kRecess_mm = 20;            // organs further apart have fat between them, not a recess
 
+/// Returns the shape of the structure with that name, or null if it is missing or a sliver.
 const StructureShape* find_whole(const std::vector<StructureShape>& shapes, std::string_view name) {
   const StructureShape* found = find_shape(shapes, name);
   return found && found->voxels >= kFewestVoxels ? found : nullptr;
