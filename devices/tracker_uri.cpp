@@ -9,7 +9,6 @@
 #include "sim/core/text.h"
 
 namespace insonate {
-namespace {}  // namespace
 
 TrackerUri parse_tracker_uri(std::string_view text) {
   TrackerUri uri;

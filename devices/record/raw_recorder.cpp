@@ -8,7 +8,6 @@
 namespace insonate {
 namespace {
 
-/// Returns the fewest digits that read back to the same double, in any locale.
 std::string head(std::string_view uri, const Pose& start) {
   std::string text = "insonate raw 1\ntracker " + std::string(uri) + "\nstart";
   for (int column = 0; column < 3; ++column)

@@ -33,8 +33,8 @@ constexpr double kRise = 0.002;        // of the similarity
 constexpr double kMostStretch = 0.15;
 constexpr std::size_t kPlacesElsewhere = 48;
 constexpr double kElsewhere_mm = 40, kElsewhere_deg = 30, kLeastElsewhere_mm = 20;
-constexpr double kStandsOut =
-    1.5;  // images of noise end 1.3 times above elsewhere, sweeps at their place 2 to 3.5 times
+// Images of noise end 1.3 times above elsewhere, sweeps at their place 2 to 3.5 times.
+constexpr double kStandsOut = 1.5;
 
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
                                           const WeinSettings& wein, Measure measure) {
@@ -155,8 +155,7 @@ struct Run {
       doubt("the search left its range around the start");
     if (!confirmed) doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
-    if (settings.measure == Measure::lc2 && end.value < kStandsOut * result.elsewhere)
-      doubt("places far away are nearly as similar");
+    if (end.value < kStandsOut * result.elsewhere) doubt("places far away are nearly as similar");
     if (settings.measure == Measure::mutual_information) return;
     if (!found.is_maximum) return doubt("the similarity has no maximum there");
     result.deviation = found.deviation;
@@ -268,7 +267,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   }
   const Uncertainty uncertainty = run.climb_on(end, last, compared_);
   result.runner_up = run.rival_of(end, ends);
-  result.elsewhere = run.elsewhere(end, run.evaluator(*fine_, kElsewhere));
+  if (settings.measure == Measure::lc2) result.elsewhere = run.elsewhere(end, run.evaluator(*fine_, kElsewhere));
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);

@@ -62,7 +62,7 @@ struct SweepRegistration {
   glm::dmat4 ct_from_sweep{1.0};  ///< the map there
   double similarity_before = 0, similarity_after = 0;
   double runner_up = 0;  ///< highest similarity of the fine stage's ends that are another place; 0 if there is none
-  double elsewhere = 0;  ///< similarity that one in ten places exceeds, 20 mm and more away from the end
+  double elsewhere = 0;  ///< LC2 that one in ten places exceeds, 20 mm and more away from the end; 0 otherwise
   std::vector<std::string> doubts;      ///< why it did not converge, as parts of sentences; empty if it did
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
   double expected_error_mm = 0;         ///< root mean square over the target points, from the parameters' covariance

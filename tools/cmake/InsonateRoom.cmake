@@ -34,8 +34,8 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# The headers that most files include, compiled once. A file must still include everything that it uses: only some
-# presets precompile headers and compile files together, and the others compile every file alone and without.
+# The headers that most files include, compiled once. A file must still include everything that it uses: the presets
+# clang, tsan and fuzz compile every file alone and without precompiled headers.
 add_library(insonate_precompiled OBJECT "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.cpp")
 target_link_libraries(insonate_precompiled PRIVATE insonate_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
@@ -69,7 +69,7 @@ function(insonate_room name)
   file(MAKE_DIRECTORY "${include_root}/${parent}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${include_root}/${folder}" SYMBOLIC)
 
-  if(ROOM_SOURCES)
+  if(ROOM_SOURCES OR ROOM_ALONE)
     add_library(insonate_${name} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
     set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     target_include_directories(insonate_${name} PUBLIC "$<BUILD_INTERFACE:${include_root}>")

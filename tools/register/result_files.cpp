@@ -246,6 +246,7 @@ std::string registration_page(const RegistrationReport& report) {
   html += row("Similarity (" + std::string(to_string(report.settings.measure)) + ") before and after",
               fixed(found.similarity_before, 4) + " &rarr; " + fixed(found.similarity_after, 4));
   html += row("Similarity of the next best place", found.runner_up > 0 ? fixed(found.runner_up, 4) : "none was found");
+  if (found.elsewhere > 0) html += row("Similarity that one in ten places far away exceeds", fixed(found.elsewhere, 4));
   const std::vector<double>& at = found.at;
   html += row("Moved from the start",
               fixed(std::hypot(at[0], at[1], at[2]), 1) + " mm, " +
