@@ -138,17 +138,31 @@ void ask_as_every_kind(const TomlTable& table, const Step& step) {
   table.forget_mistakes_after(before);
 }
 
-Step read_step(const TomlTable& table, const Scenario& exam) {
-  Step step;
-  step.kind = table.text("kind");
+const StepKind* kind_called(std::string_view name) {
+  for (const StepKind& kind : step_kinds())
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
+
+/// Returns the kind that a step has. For a misspelt one, which is reported, it returns the kind that must be meant, so
+/// that the step's other mistakes are reported too.
+const StepKind* read_kind(const TomlTable& table) {
+  const std::string word = table.text("kind");
+  const StepKind* kind = kind_called(word);
+  if (word.empty() || kind) return kind;
   std::vector<std::string> names;
-  const StepKind* kind = nullptr;
-  for (const StepKind& k : step_kinds()) {
-    names.emplace_back(k.name);
-    if (step.kind == k.name) kind = &k;
-  }
-  if (!step.kind.empty() && !kind)
-    table.report("kind", "there is no kind of step " + in_quotes(step.kind), suggest(step.kind, names));
+  for (const StepKind& known : step_kinds()) names.emplace_back(known.name);
+  table.report("kind", "there is no kind of step " + in_quotes(word), suggest(word, names));
+  const std::optional<std::string> meant = similar_name(word, names);
+  return meant ? kind_called(*meant) : nullptr;
+}
+
+Step read_step(const TomlTable& table, const Scenario& exam) {
+  const std::size_t mistakes_before = table.mistake_count();
+  const StepKind* kind = read_kind(table);
+  const bool misspelt = table.mistake_count() > mistakes_before;
+  Step step;
+  if (kind) step.kind = kind->name;
   step.title = table.text("title");
   step.instruction = table.text("instruction");
   step.name = table.text("name", "");
@@ -174,9 +188,9 @@ Step read_step(const TomlTable& table, const Scenario& exam) {
     ask_as_every_kind(table, step);
     return step;
   }
-  const std::size_t mistakes_before = table.mistake_count();
+  const std::size_t mistakes_before_task = table.mistake_count();
   step.task = kind->read(table, step);
-  step.sound = table.mistake_count() == mistakes_before;
+  step.sound = !misspelt && table.mistake_count() == mistakes_before_task;
   step.criteria = read_criteria(table, false);
   if (step.task) check_criteria(step, table);
   if (step.task) check_locks(step, exam, table);

@@ -223,6 +223,16 @@ TEST_CASE("a step whose kind is wrong has its wrong keys reported too, and no ke
   }
 }
 
+TEST_CASE("a step whose kind is misspelt is read as the kind that must be meant") {
+  std::string text = with(kEverything, "kind = \"measure\"", "kind = \"measur\"");
+  text = with(text, "walls = \"outer to outer\"", "wall = \"outer to outer\"");
+  text = with(text, "metric = \"measurement_error_mm\"\nfull = 3", "metric = \"coverage_percent\"\nfull = 3");
+  const std::string said = refusal(text);
+  CHECK(said.find("there is no kind of step 'measur'; did you mean 'measure'?") != std::string::npos);
+  CHECK(said.find("the key 'wall' is unknown here") != std::string::npos);
+  CHECK(said.find("a step of the kind measure does not measure coverage_percent") != std::string::npos);
+}
+
 TEST_CASE("names in steps of any kind are checked against the case") {
   check_rows(
       {
