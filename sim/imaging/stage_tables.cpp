@@ -34,14 +34,16 @@ Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& ga
   for (int j = -margin; j <= margin; ++j) weights.push_back(float(std::exp(gaussian.exponent * j * j)));
   const auto weight = [&](int j) { return weights[std::size_t(j + margin)]; };
   Image<float> along_rows(w, h), whole(w, h);
-  for (int y = 0; y < h; ++y)
+  tbb::parallel_for(0, h, [&](int y) {
     for (int x = 0; x < w; ++x)
       if (inside.at(x, y))
         for (int i = std::max(x - margin, 0); i <= std::min(x + margin, w - 1); ++i)
           if (inside.at(i, y)) along_rows.at(x, y) += weight(i - x);
-  for (int y = 0; y < h; ++y)
+  });
+  tbb::parallel_for(0, h, [&](int y) {
     for (int i = std::max(y - margin, 0); i <= std::min(y + margin, h - 1); ++i)
       for (int x = 0; x < w; ++x) whole.at(x, y) += weight(i - y) * along_rows.at(x, i);
+  });
   return whole;
 }
 
@@ -236,14 +238,17 @@ TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, 
   const Image<float> of_reflection = inside_window(fan.inside, reflection);
   const int channels = transmission.radius > 0 ? 4 : 2;
   const Image<float> of_transmission = channels == 4 ? inside_window(fan.inside, transmission) : Image<float>();
-  std::vector<float> values;
-  values.reserve(std::size_t(channels) * fan.inside.pixels.size());
-  for (std::size_t i = 0; i < fan.inside.pixels.size(); ++i) {
-    const bool inside = fan.inside.pixels[i];
-    values.push_back(inside ? fan.line_and_sample[i].y + 1 : 0);
-    values.push_back(inside ? 1 / of_reflection.pixels[i] : 0);
-    if (channels == 4) values.insert(values.end(), {inside ? 1 / of_transmission.pixels[i] : 0, 0});
-  }
+  std::vector<float> values(std::size_t(channels) * fan.inside.pixels.size());
+  tbb::parallel_for(0, fan.inside.height, [&](int y) {
+    for (int x = 0; x < fan.inside.width; ++x) {
+      if (!fan.inside.at(x, y)) continue;
+      const std::size_t pixel = std::size_t(y) * std::size_t(fan.inside.width) + std::size_t(x);
+      float* of_pixel = values.data() + std::size_t(channels) * pixel;
+      of_pixel[0] = fan.line_and_sample[pixel].y + 1;
+      of_pixel[1] = 1 / of_reflection.at(x, y);
+      if (channels == 4) of_pixel[2] = 1 / of_transmission.at(x, y);
+    }
+  });
   return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.data());
 }
 
