@@ -200,7 +200,7 @@ void Texture::bind_image(GLuint unit, GLenum access) const {
   glBindImageTexture(unit, object_.name(), 0, GL_TRUE, 0, access, format_);  // all slices of a 3D texture
 }
 
-TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) {
+TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) : format_(format), texels_(texels) {
   const std::size_t bytes = texel_bytes(format);
   GLint64 most_bytes = 0;
   GLint most_texels = 0;
@@ -215,6 +215,10 @@ TexelBuffer::TexelBuffer(GLenum format, std::size_t texels, const void* values) 
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   texture_ = Object<TextureKind>(name);
   glTextureBuffer(name, format, buffer_.name());
+}
+
+void TexelBuffer::resize(GLenum format, std::size_t texels) {
+  if (!texture_ || format != format_ || texels != texels_) *this = TexelBuffer(format, texels);
 }
 
 Framebuffer::Framebuffer(const Texture& colour) : Framebuffer({&colour}) {}

@@ -160,9 +160,15 @@ public:
   void read(void* values, std::size_t bytes) const { buffer_.read(values, bytes); }
   explicit operator bool() const { return bool(texture_); }
 
+  /// Becomes a buffer of so many texels, with whatever values it has. Keeps the one that it is if that has the format
+  /// and the number already: a device takes longer to allocate than to clear.
+  void resize(GLenum format, std::size_t texels);
+
 private:
   Buffer buffer_;
   Object<TextureKind> texture_;
+  GLenum format_ = 0;
+  std::size_t texels_ = 0;
 };
 
 struct FramebufferKind {

@@ -13,16 +13,24 @@ constexpr glm::ivec2 kOutside(1 << 20);  // in blocks: beyond every picture
 }  // namespace
 
 FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
-                     const WorkDivision& division)
-    : geometry(image_geometry(probe, depth_mm, width, height)), inside(width, height) {
-  line_and_sample.assign(inside.pixels.size(), glm::vec2(-2));
+                     const WorkDivision& division) {
+  lay_out(probe, depth_mm, lines, width, height, division);
+}
+
+void FanLayout::lay_out(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
+                        const WorkDivision& division) {
+  geometry = image_geometry(probe, depth_mm, width, height);
+  inside.width = width;
+  inside.height = height;
+  inside.pixels.resize(std::size_t(width) * std::size_t(height));
+  line_and_sample.resize(inside.pixels.size());
   tbb::parallel_for(0, height, [&](int y) {
     std::size_t pixel = std::size_t(y) * std::size_t(width);
-    for (int x = 0; x < width; ++x, ++pixel)
-      if (const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y))) {
-        inside.pixels[pixel] = 1;
-        line_and_sample[pixel] = glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5);
-      }
+    for (int x = 0; x < width; ++x, ++pixel) {
+      const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y));
+      inside.pixels[pixel] = at ? 1 : 0;
+      line_and_sample[pixel] = at ? glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5) : glm::vec2(-2);
+    }
   });
 
   const auto touched = [&](const glm::ivec2& low) {
@@ -31,6 +39,7 @@ FanLayout::FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines
         if (inside.at(x, y)) return true;
     return false;
   };
+  blocks.clear();
   for (int y = 0; y * kBlock.y < height; ++y)
     for (int x = 0; x * kBlock.x < width; ++x)
       if (touched(glm::ivec2(x, y) * kBlock)) blocks.emplace_back(x, y);

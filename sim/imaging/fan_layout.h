@@ -28,6 +28,10 @@ struct FanLayout {
   FanLayout(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
             const WorkDivision& division = {});
 
+  /// Becomes another layout in place: no new memory is needed for a picture of the same size.
+  void lay_out(const Probe& probe, double depth_mm, const ScanLines& lines, int width, int height,
+               const WorkDivision& division);
+
   /// Returns how many pixels of the picture lie in those blocks.
   std::size_t pixels_in_blocks() const;
 };

@@ -85,15 +85,15 @@ void LineStages::lay_out(const ScanLines& of_plane, int most_planes, const Setti
   lines_ = of_plane;
   most_planes_ = most_planes;
   const std::size_t n = std::size_t(most_planes) * lines_.lines.size(), d = std::size_t(lines_.samples);
-  in_air_ = TexelBuffer(GL_RGBA32F, d);
-  scan_ = TexelBuffer(GL_RGBA32F, n * d);
+  in_air_.resize(GL_RGBA32F, d);
+  scan_.resize(GL_RGBA32F, n * d);
   middle_ = TexelBuffer();
-  echoes_ = TexelBuffer(GL_RGBA32F, n * d);
+  echoes_.resize(GL_RGBA32F, n * d);
   pulsed_ = TexelBuffer();
   repeats_ = TexelBuffer();
   if (settings.waves) scatterers_.lay_out(lines_, most_planes);
-  mean_echo_ = TexelBuffer(GL_RGBA32F, std::size_t(most_planes) * d);
-  layer_echo_ = TexelBuffer(GL_R32F, std::size_t(most_planes) * d);
+  mean_echo_.resize(GL_RGBA32F, std::size_t(most_planes) * d);
+  layer_echo_.resize(GL_R32F, std::size_t(most_planes) * d);
   beam_changed_ = true;
 }
 

@@ -126,7 +126,7 @@ void Simulator::State::lay_out() {
     looks.push_back({scan_lines(probe, depth_mm, settings.samples, angle), {}});
   line_stages.lay_out(looks[looks.size() / 2].lines, 1, settings);
   const int w = settings.image_width, h = settings.image_height;
-  fan = FanLayout(probe, depth_mm, line_stages.lines(), w, h, division);
+  fan.lay_out(probe, depth_mm, line_stages.lines(), w, h, division);
   noise = TexelBuffer();
   for (Look& look : looks)
     look.line_and_sample = TexelBuffer(
@@ -134,14 +134,18 @@ void Simulator::State::lay_out() {
         (look.lines.fan.steering == 0 ? fan.line_and_sample : places_among(look.lines, fan.geometry)).data());
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
-  picture = is_compounded() ? TexelBuffer(GL_R32F, looks.size() * pixels()) : TexelBuffer(GL_RG32F, pixels());
+  if (is_compounded())
+    picture.resize(GL_R32F, looks.size() * pixels());
+  else
+    picture.resize(GL_RG32F, pixels());
   shown = TexelBuffer();
   window_sums = TexelBuffer();
   fan_weights = TexelBuffer();
   fused = TexelBuffer();
-  levels = TexelBuffer();
-  image = Texture::make_picture(w, h, Filter::linear);
-  image_words = Buffer(pixels() * sizeof(GLuint), nullptr);
+  if (image.width() != w || image.height() != h) {
+    image = Texture::make_picture(w, h, Filter::linear);
+    image_words = Buffer(pixels() * sizeof(GLuint), nullptr);
+  }
   image_words.clear();
   layout_changed = false;
 }
@@ -184,15 +188,15 @@ void Simulator::State::prepare_smoothing() {
   transmission_gaussian = transmission;
   fan_weights = weights_of_pixels(fan, reflection, transmission);
   const GLenum format = transmission.radius > 0 ? GL_RG32F : GL_R32F;
-  sharp = TexelBuffer(format, pixels());
-  half_smoothed = TexelBuffer(format, pixels());
+  sharp.resize(format, pixels());
+  half_smoothed.resize(format, pixels());
   sharp.clear();
   half_smoothed.clear();
 }
 
 void Simulator::State::prepare_fusion(int filter_radius) {
   if (stages_are_read && !fused) (fused = TexelBuffer(GL_R32F, pixels())).clear();
-  if (frame_sets_white() && !levels) levels = TexelBuffer(GL_R32F, pixels());
+  if (frame_sets_white()) levels.resize(GL_R32F, pixels());
   if ((settings.persistence > 0 || filter_radius > 0) && !shown) (shown = TexelBuffer(GL_R32F, pixels())).clear();
   if (filter_radius > 0 && !window_sums) (window_sums = TexelBuffer(GL_RGBA32F, pixels())).clear();
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
+#include <optional>
 
 #include "sim/core/image.h"
 #include "sim/model/beam.h"
@@ -27,25 +29,35 @@ constexpr double kLn10 = 2.302585092994046;
 constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
 constexpr double kMostBlend = 1e-3;  // limit for the blend above: beyond it, reverberation would still show the tilt
 
-// Returns the part of each pixel's window that lies inside the fan, rows first, as smooth.comp and fuse.comp do.
-Image<float> inside_window(const Image<std::uint8_t>& inside, const Gaussian& gaussian) {
-  const int w = inside.width, h = inside.height, margin = gaussian.radius;
-  std::vector<float> weights;
-  for (int j = -margin; j <= margin; ++j) weights.push_back(float(std::exp(gaussian.exponent * j * j)));
-  const auto weight = [&](int j) { return weights[std::size_t(j + margin)]; };
-  Image<float> along_rows(w, h), whole(w, h);
-  tbb::parallel_for(0, h, [&](int y) {
-    for (int x = 0; x < w; ++x)
-      if (inside.at(x, y))
-        for (int i = std::max(x - margin, 0); i <= std::min(x + margin, w - 1); ++i)
-          if (inside.at(i, y)) along_rows.at(x, y) += weight(i - x);
-  });
-  tbb::parallel_for(0, h, [&](int y) {
-    for (int i = std::max(y - margin, 0); i <= std::min(y + margin, h - 1); ++i)
-      for (int x = 0; x < w; ++x) whole.at(x, y) += weight(i - y) * along_rows.at(x, i);
-  });
-  return whole;
-}
+/// The part of each pixel's window that lies inside the fan, rows first, as smooth.comp and fuse.comp sum.
+class InsideWindow {
+public:
+  InsideWindow(const Image<std::uint8_t>& inside, const Gaussian& gaussian)
+      : margin_(gaussian.radius), along_rows_(inside.width, inside.height) {
+    for (int j = -margin_; j <= margin_; ++j) weights_.push_back(float(std::exp(gaussian.exponent * j * j)));
+    tbb::parallel_for(0, inside.height, [&](int y) {
+      for (int x = 0; x < inside.width; ++x)
+        if (inside.at(x, y))
+          for (int i = std::max(x - margin_, 0); i <= std::min(x + margin_, inside.width - 1); ++i)
+            if (inside.at(i, y)) along_rows_.at(x, y) += weight(i - x);
+    });
+  }
+
+  /// Returns the parts of a row's pixels.
+  std::vector<float> row(int y) const {
+    std::vector<float> parts(std::size_t(along_rows_.width));
+    for (int i = std::max(y - margin_, 0); i <= std::min(y + margin_, along_rows_.height - 1); ++i)
+      for (std::size_t x = 0; x < parts.size(); ++x) parts[x] += weight(i - y) * along_rows_.at(int(x), i);
+    return parts;
+  }
+
+private:
+  float weight(int j) const { return weights_[std::size_t(j + margin_)]; }
+
+  int margin_;
+  std::vector<float> weights_;
+  Image<float> along_rows_;
+};
 
 constexpr float kFar = 1e9f;  // samples
 
@@ -235,21 +247,25 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
 }
 
 TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
-  const Image<float> of_reflection = inside_window(fan.inside, reflection);
-  const int channels = transmission.radius > 0 ? 4 : 2;
-  const Image<float> of_transmission = channels == 4 ? inside_window(fan.inside, transmission) : Image<float>();
-  std::vector<float> values(std::size_t(channels) * fan.inside.pixels.size());
+  const InsideWindow of_reflection(fan.inside, reflection);
+  std::optional<InsideWindow> of_transmission;
+  if (transmission.radius > 0) of_transmission.emplace(fan.inside, transmission);
+  const std::size_t channels = of_transmission ? 4 : 2, width = std::size_t(fan.inside.width);
+  const auto values = std::make_unique_for_overwrite<float[]>(channels * fan.inside.pixels.size());
   tbb::parallel_for(0, fan.inside.height, [&](int y) {
-    for (int x = 0; x < fan.inside.width; ++x) {
-      if (!fan.inside.at(x, y)) continue;
-      const std::size_t pixel = std::size_t(y) * std::size_t(fan.inside.width) + std::size_t(x);
-      float* of_pixel = values.data() + std::size_t(channels) * pixel;
-      of_pixel[0] = fan.line_and_sample[pixel].y + 1;
-      of_pixel[1] = 1 / of_reflection.at(x, y);
-      if (channels == 4) of_pixel[2] = 1 / of_transmission.at(x, y);
+    const std::vector<float> reflected = of_reflection.row(y);
+    const std::vector<float> transmitted = of_transmission ? of_transmission->row(y) : std::vector<float>();
+    for (std::size_t x = 0, pixel = std::size_t(y) * width; x < width; ++x, ++pixel) {
+      float* of_pixel = values.get() + channels * pixel;
+      const bool inside = fan.inside.pixels[pixel];
+      of_pixel[0] = inside ? fan.line_and_sample[pixel].y + 1 : 0;
+      of_pixel[1] = inside ? 1 / reflected[x] : 0;
+      if (!of_transmission) continue;
+      of_pixel[2] = inside ? 1 / transmitted[x] : 0;
+      of_pixel[3] = 0;
     }
   });
-  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.data());
+  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.get());
 }
 
 TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {
