@@ -12,10 +12,11 @@ void set(GLenum capability, bool on) {
 
 }  // namespace
 
-void PictureTarget::resize(int width, int height) {
-  if (texture && texture.width() == width && texture.height() == height) return;
+bool PictureTarget::resize(int width, int height) {
+  if (texture && texture.width() == width && texture.height() == height) return false;
   texture = gl::Texture::make_picture(width, height, gl::Filter::linear);
   framebuffer = gl::Framebuffer(texture);
+  return true;
 }
 
 ScopedDrawTarget::ScopedDrawTarget(const gl::Framebuffer& target, int first_row, int end_row)

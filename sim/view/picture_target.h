@@ -9,8 +9,8 @@ struct PictureTarget {
   gl::Texture texture;
   gl::Framebuffer framebuffer;
 
-  /// Makes new textures if the size differs.
-  void resize(int width, int height);
+  /// Makes a new picture if the size differs, and returns whether it did.
+  bool resize(int width, int height);
 };
 
 /// Directs drawing, while it exists, into rows [first, end) of a target, without blending or tests. The destructor

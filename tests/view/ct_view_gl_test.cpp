@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/view/body/classified_ct.h"
 #include "sim/view/body/ct_reference.h"
 #include "sim/view/body/volume_view.h"
 #include "tests/view/test_patient.h"
@@ -287,6 +288,26 @@ TEST_CASE("The scanner's table is left out, and the body is not") {
   CHECK(lit(false, {45, 46, 0}));
   CHECK(!lit(true, {45, 46, 0}));
   CHECK(lit(true, {0, 30, 0}));
+}
+
+TEST_CASE("The graphics card measures the same distances to what is visible as the processor") {
+  const auto two_balls = [](const glm::dvec3& p) {
+    return glm::distance(p, {25, -20, 30}) < 9 ? 700.0 : glm::length(p) < 12 ? 60.0 : -1000.0;
+  };
+  Scene scene(test::ct_of(test::skewed_grid(70), two_balls), {}, {});
+  ClassifiedCt by_processor({}, RayShader::fragment), by_card({}, RayShader::compute);
+  const auto distances_of = [&](ClassifiedCt& classified, const TransferFunction& function) {
+    classified.update(*scene.patient, *style_of(function).ct);
+    const gl::Texture& distances = classified.distances();
+    std::vector<std::uint8_t> values(std::size_t(distances.width() * distances.height() * distances.depth()));
+    distances.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, values.data(), values.size());
+    return values;
+  };
+  for (const double from : {-300.0, 300.0, 1000.0}) {  // both balls, one, and nothing at all
+    const std::vector<std::uint8_t> of_processor = distances_of(by_processor, above(from));
+    CHECK(distances_of(by_card, above(from)) == of_processor);
+    CHECK((std::ranges::count(of_processor, 0) > 0) == (from < 700));
+  }
 }
 
 TEST_CASE("An edit of the transfer function is drawn at once, and nothing is drawn while nothing changes") {

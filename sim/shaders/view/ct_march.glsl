@@ -54,7 +54,7 @@ float dither(uvec2 pixel) {
   return float((h ^ (h >> 16)) >> 8) / 16777216.0;
 }
 
-March march_of(Ray ray) {
+March march_of(Ray ray, ivec2 pixel) {
   March march;
   vec3 origin = (texture_from_patient * vec4(eye.xyz, 1.0)).xyz, direction = mat3(texture_from_patient) * ray.direction;
   vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
@@ -62,7 +62,7 @@ March march_of(Ray ray) {
   vec3 low = min(a, b), high = max(a, b);
   march.t = max(max(max(low.x, low.y), low.z), ray.begin);
   march.end = min(min(high.x, high.y), high.z);
-  march.first = march.t + (jitter == 1 ? dither(uvec2(gl_FragCoord.xy)) : 0.0) * ct_step_mm;
+  march.first = march.t + (jitter == 1 ? dither(uvec2(pixel)) : 0.0) * ct_step_mm;
   march.known = false;
   march.covered = 0.0;
   vec3 texels = vec3(textureSize(acoustic_volume, 0));  // with a margin of 1

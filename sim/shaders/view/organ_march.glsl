@@ -104,6 +104,6 @@ void march_to(inout March march, vec3 direction, float stop) {
   }
 }
 
-March march_of(Ray ray) {
+March march_of(Ray ray, ivec2 pixel) {
   return March(ray.box_origin, ray.box_direction, ray.begin, -1.0, ray.begin, 0.0, false, vec2(0.0));
 }

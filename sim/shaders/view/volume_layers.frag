@@ -26,8 +26,9 @@ bool fan_covers(Ray ray) {
 }
 
 void main() {
-  Ray ray = ray_at(2.0 * gl_FragCoord.xy / picture.xy - 1.0);
-  March march = march_of(ray);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  Ray ray = ray_at(place_of(pixel));
+  March march = march_of(ray, pixel);
   bool plane_first = ray.t_plane < ray.t_probe, hidden = false;
   front = vec4(0.0);
   before_probe = 0.0;

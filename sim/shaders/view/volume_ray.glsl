@@ -1,6 +1,6 @@
-// Ray casting for the volume view: what lies along a ray, and how it looks. To be included by a fragment shader that has
-// declared its output, before one of the files that march along the ray: organ_march.glsl or ct_march.glsl. It reads the
-// CT, the ultrasound picture, and the tissue and body textures.
+// Ray casting for the volume view: what lies along a ray, and how it looks. To be included before one of the
+// files that march along the ray: organ_march.glsl or ct_march.glsl. It reads the CT, the ultrasound picture, and the
+// tissue and body textures.
 
 #include "view/volume_view_parameters.h"
 #include "view/hounsfield.glsl"
@@ -114,7 +114,12 @@ struct Ray {
   vec3 box_origin, box_direction;
 };
 
-// @param at  in the picture, -1 to 1 from the bottom left
+// Returns where a pixel's middle lies in the picture: -1 to 1, from the first column and row.
+vec2 place_of(ivec2 pixel) {
+  return 2.0 * (vec2(pixel) + 0.5) / picture.xy - 1.0;
+}
+
+// @param at  in the picture, as place_of() returns
 Ray ray_at(vec2 at) {
   Ray ray;
   ray.direction = normalize(into.xyz + at.x * right.xyz + at.y * down.xyz);

@@ -14,8 +14,8 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   mat4 tissue_from_patient;   // patient mm -> coordinates of the tissue and body textures
   mat4 texture_from_patient;  // patient mm -> coordinates of the CT's texture
   mat4 probe_from_patient;
-  vec4 eye;      // patient mm
-  vec4 right;    // a ray's direction is into + x right + y down, x and y from -1 to 1 over the picture
+  vec4 eye;    // patient mm
+  vec4 right;  // a ray's direction is into + x right + y down, x and y from -1 to 1 over the picture
   vec4 down;
   vec4 into;     // unit vector
   vec4 picture;  // width, height, mm per pixel at 1 mm from the eye, unused
@@ -39,9 +39,10 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   int skip_empty;  // whether empty cells are leapt over
   int body_only;   // whether the table is left out
 
-  int fan_edge;  // whether the fan's edge has a colour of its own: with few pixels it would be a broad band
+  int fan_edge;             // whether the fan's edge has a colour of its own: with few pixels it would be a broad band
   float structure_opacity;  // of the surfaces of structures within the CT
-  int unused_1, unused_2;
+  int first_row;            // of the part that is drawn now; a fragment shader is cut to it
+  int end_row;
 #ifdef __cplusplus
 };
 }  // namespace insonate::view

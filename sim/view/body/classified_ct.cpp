@@ -1,12 +1,45 @@
 #include "sim/view/body/classified_ct.h"
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/view/body/distance_map.h"
 #include "sim/view/body/structure_surfaces.h"
 
 namespace insonate::view {
+namespace {
+
+gl::Defines along(int axis) {
+  return {{"AXIS", std::to_string(axis)}, {"MOST_DISTANCE", std::to_string(kMostDistance)}};
+}
+
+gl::Texture cell_texture(const glm::ivec3& cells) {
+  return gl::Texture::make_3d(GL_R8UI, cells.x, cells.y, cells.z, gl::Filter::nearest, gl::Wrap::edge);
+}
+
+}  // namespace
+
+ClassifiedCt::ClassifiedCt(const gl::ShaderSources& sources, RayShader shader) {
+  if (shader == RayShader::compute)
+    passes_.emplace(sources, std::vector<std::string>{"view/cell_distance.comp"}, along(0));
+}
+
+void ClassifiedCt::measure_distances(const glm::ivec3& cells, const std::vector<std::uint8_t>& occupied) {
+  if (glm::ivec3(distances_.width(), distances_.height(), distances_.depth()) != cells) {
+    distances_ = cell_texture(cells);
+    if (passes_) between_passes_ = cell_texture(cells);
+  }
+  distances_.write(GL_RED_INTEGER, GL_UNSIGNED_BYTE, (passes_ ? occupied : distance_map(cells, occupied)).data());
+  for (int axis = 0; passes_ && axis < 3; ++axis) {
+    passes_->define(along(axis));
+    distances_.bind(0);
+    between_passes_.bind_image(0, GL_WRITE_ONLY);
+    passes_->dispatch(cells.x, cells.y, cells.z);
+    std::swap(distances_, between_passes_);
+  }
+}
 
 void ClassifiedCt::update(const PatientTextures& patient, const CtVolumeStyle& style) {
   if (patient_ == &patient && function_ == style.function && body_only_ == style.body_only &&
@@ -23,15 +56,10 @@ void ClassifiedCt::update(const PatientTextures& patient, const CtVolumeStyle& s
       surfaces_.write(GL_RGBA, GL_UNSIGNED_BYTE, made.voxels.data());
     }
   }
-  if (distance_.width() != cells.size().x || distance_.height() != cells.size().y ||
-      distance_.depth() != cells.size().z)
-    distance_ = gl::Texture::make_3d(GL_R8UI, cells.size().x, cells.size().y, cells.size().z, gl::Filter::nearest,
-                                     gl::Wrap::edge);
   const TransferTable table(style.function);
   std::vector<std::uint8_t> occupied = cells.occupied(VisibleRanges(table));
   for (std::size_t cell = 0; cell < with_structures_.size(); ++cell) occupied[cell] |= with_structures_[cell];
-  const std::vector<std::uint8_t> distances = distance_map(cells.size(), occupied);
-  distance_.write(GL_RED_INTEGER, GL_UNSIGNED_BYTE, distances.data());
+  measure_distances(cells.size(), occupied);
   std::vector<glm::vec4> texels;
   texels.reserve(2 * table.values.size());
   for (std::size_t i = 0; i < table.values.size(); ++i) {
@@ -47,8 +75,12 @@ void ClassifiedCt::update(const PatientTextures& patient, const CtVolumeStyle& s
 
 void ClassifiedCt::bind() const {
   table_.bind(8);
-  distance_.bind(9);
+  distances_.bind(9);
   if (shows_structures()) surfaces_.bind(11);
+}
+
+std::vector<gl::Program*> ClassifiedCt::programs() {
+  return passes_ ? std::vector<gl::Program*>{&*passes_} : std::vector<gl::Program*>();
 }
 
 }  // namespace insonate::view

@@ -3,9 +3,9 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "sim/gl/streamed_buffer.h"
 #include "sim/shaders/view/volume_view_parameters.h"
@@ -29,9 +29,14 @@ double step_mm(const PatientTextures& patient, int scale) {
   return kStepInVoxels * patient.tissue_voxel_mm() * coarsening(scale);
 }
 
+/// The rows of a picture from `first` to before `end`.
+struct Rows {
+  int first, end;
+};
+
 VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitCamera& camera,
                                     const UltrasoundPlane& plane, const VolumeStyle& style, int width, int height,
-                                    int scale) {
+                                    int scale, Rows rows) {
   const Pose patient_from_camera = camera.patient_from_camera();
   const double slope = std::tan(glm::radians(camera.field_of_view_deg / 2));
   const double aspect = double(width) / height;
@@ -63,6 +68,8 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.show_probe = style.probe;
   p.show_organs = style.organs;
   p.fan_edge = scale == 1;
+  p.first_row = rows.first;
+  p.end_row = rows.end;
   if (style.ct) {
     p.ct_step_mm = float(style.ct->step * patient.ct_voxel_mm() * coarsening(scale));
     p.jitter = style.ct->jittered;
@@ -134,18 +141,25 @@ struct Layers {
 }  // namespace
 
 struct VolumeView::State {
-  explicit State(const gl::ShaderSources& sources)
-      : whole(sources, {"view/full_screen.vert", "view/volume_view.frag"}, kDefines),
+  State(const gl::ShaderSources& sources, RayShader shader)
+      : by_groups(shader == RayShader::compute),
+        whole(sources,
+              by_groups ? std::vector<std::string>{"view/volume_view.comp"}
+                        : std::vector<std::string>{"view/full_screen.vert", "view/volume_view.frag"},
+              kDefines),
         layers_program(sources, {"view/full_screen.vert", "view/volume_layers.frag"}, kDefines),
-        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines) {}
+        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines),
+        classified(sources, shader) {}
 
   inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
   gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct) const;
+  bool by_groups;  // whole pictures are drawn by a compute shader
   gl::Program whole, layers_program, finish;
   gl::FullScreenTriangle triangle;
   gl::StreamedBuffer parameters;
   ClassifiedCt classified;
   PictureTarget full, reduced;
+  gl::Buffer full_words;  // the full picture as a compute shader writes it, one number per pixel
   Layers layers;
   Pace pace, finish_pace;
 
@@ -156,8 +170,9 @@ struct VolumeView::State {
   int full_rows = 0;     // rows of the full picture drawn so far
   long renders = 0;
 
-  void bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness);
-  void draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, int first_row, int end_row);
+  void bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness, Rows rows);
+  void draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, Rows rows);
+  void cast_rays(const VolumeInputs& inputs, Rows rows);
   void draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane);
 };
 
@@ -192,9 +207,10 @@ gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& c
 }
 
 void VolumeView::State::bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height,
-                             int coarseness) {
+                             int coarseness, Rows rows) {
   const VolumeViewParameters values =
-      parameters_for(*inputs.patient, inputs.camera, plane, inputs.style, width, height, coarseness);
+      parameters_for(*inputs.patient, inputs.camera, plane, inputs.style, width, height, coarseness, rows);
+  if (inputs.style.ct) classified.update(*inputs.patient, *inputs.style.ct);
   parameters.write(&values, sizeof values);
   parameters.bind_uniform(0);
   inputs.patient->acoustic_volume().bind(0);
@@ -203,28 +219,37 @@ void VolumeView::State::bind(const VolumeInputs& inputs, const UltrasoundPlane& 
   inputs.patient->body().bind(3);
   inputs.patient->distance().bind(4);
   inputs.patient->smooth_ct().bind(10);
-  if (!inputs.style.ct) return;
-  classified.update(*inputs.patient, *inputs.style.ct);
-  classified.bind();
+  if (inputs.style.ct) classified.bind();
 }
 
-void VolumeView::State::draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, int first_row,
-                                   int end_row) {
-  full.resize(inputs.width, inputs.height);
-  bind(inputs, plane, inputs.width, inputs.height, 1);
-  const ScopedDrawTarget drawing(full.framebuffer, first_row, end_row);
+void VolumeView::State::draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, Rows rows) {
+  if (full.resize(inputs.width, inputs.height) && by_groups)
+    full_words = gl::Buffer(std::size_t(inputs.width) * std::size_t(inputs.height) * sizeof(GLuint), nullptr);
+  bind(inputs, plane, inputs.width, inputs.height, 1, rows);
   whole.define(defines_for(inputs.style.ct));
-  whole.use();
-  pace.begin(first_row == 0);
-  triangle.draw();
-  pace.end(double(inputs.width) * (end_row - first_row), end_row == inputs.height);
+  pace.begin(rows.first == 0);
+  if (by_groups) {
+    cast_rays(inputs, rows);
+  } else {
+    const ScopedDrawTarget drawing(full.framebuffer, rows.first, rows.end);
+    whole.use();
+    triangle.draw();
+  }
+  pace.end(double(inputs.width) * (rows.end - rows.first), rows.end == inputs.height);
   ++renders;
+}
+
+// Draws by the compute shader. The picture becomes a texture once all of its rows are there.
+void VolumeView::State::cast_rays(const VolumeInputs& inputs, Rows rows) {
+  full_words.bind_storage(0);
+  whole.dispatch(inputs.width, rows.end - rows.first);
+  if (rows.end == inputs.height) full.texture.write(GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, full_words);
 }
 
 void VolumeView::State::draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
   const int coarse_width = scaled(inputs.width, scale), coarse_height = scaled(inputs.height, scale);
   layers.resize(coarse_width, coarse_height);
-  bind(inputs, plane, coarse_width, coarse_height, scale);
+  bind(inputs, plane, coarse_width, coarse_height, scale, {0, coarse_height});
   {
     const ScopedDrawTarget drawing(layers.framebuffer, 0, coarse_height);
     layers_program.define(defines_for(inputs.style.ct));
@@ -235,7 +260,7 @@ void VolumeView::State::draw_moving(const VolumeInputs& inputs, const Ultrasound
   }
   const int width = scaled(inputs.width, finish_scale), height = scaled(inputs.height, finish_scale);
   reduced.resize(width, height);
-  bind(inputs, plane, width, height, finish_scale);
+  bind(inputs, plane, width, height, finish_scale, {0, height});
   layers.front.bind(5);
   layers.back.bind(6);
   layers.before_probe.bind(7);
@@ -247,7 +272,8 @@ void VolumeView::State::draw_moving(const VolumeInputs& inputs, const Ultrasound
   ++renders;
 }
 
-VolumeView::VolumeView(const gl::ShaderSources& sources) : state_(std::make_unique<State>(sources)) {}
+VolumeView::VolumeView(const gl::ShaderSources& sources, RayShader shader)
+    : state_(std::make_unique<State>(sources, shader)) {}
 VolumeView::~VolumeView() = default;
 VolumeView::VolumeView(VolumeView&&) noexcept = default;
 VolumeView& VolumeView::operator=(VolumeView&&) noexcept = default;
@@ -265,7 +291,7 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
     s.scale = s.moving_scale = chosen_scale(s.pace, pixels, budget.volume_ms, s.moving_scale, kCoarsest);
     s.full_rows = s.scale == 1 ? height : 0;
     if (s.scale == 1) {
-      s.draw_whole(inputs, plane, 0, height);
+      s.draw_whole(inputs, plane, {0, height});
     } else {
       s.finish_scale = chosen_scale(s.finish_pace, pixels, budget.plane_ms, s.finish_scale, s.scale);
       s.draw_moving(inputs, plane);
@@ -275,7 +301,7 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
     const int rows = row_ms * height <= budget_ms ? height : int(std::max(budget_ms / row_ms, height / 64.0)) + 1;
     const int first = s.full_rows;
     s.full_rows = std::min(first + rows, height);
-    s.draw_whole(inputs, plane, first, s.full_rows);
+    s.draw_whole(inputs, plane, {first, s.full_rows});
     if (s.full_rows == height) s.scale = 1;
   }
   return s.scale == 1 ? s.full.texture : s.reduced.texture;
@@ -300,8 +326,9 @@ double VolumeView::full_picture_ms() const {
 }
 
 std::optional<std::string> VolumeView::reload(const gl::ShaderSources& sources) {
-  const std::optional<std::string> problem =
-      gl::Program::reload(std::array{&state_->whole, &state_->layers_program, &state_->finish}, sources);
+  std::vector<gl::Program*> programs = state_->classified.programs();
+  programs.insert(programs.end(), {&state_->whole, &state_->layers_program, &state_->finish});
+  const std::optional<std::string> problem = gl::Program::reload(programs, sources);
   if (!problem) forget();
   return problem;
 }

@@ -10,6 +10,7 @@
 #include "sim/view/body/ct_volume_style.h"
 #include "sim/view/body/orbit_camera.h"
 #include "sim/view/body/patient_textures.h"
+#include "sim/view/body/ray_shader.h"
 #include "sim/view/ultrasound_plane.h"
 
 namespace insonate::view {
@@ -38,7 +39,7 @@ struct VolumeBudget {
 class VolumeView {
 public:
   /// Throws std::runtime_error if the shader does not compile. Needs a current OpenGL context.
-  explicit VolumeView(const gl::ShaderSources& sources = {});
+  explicit VolumeView(const gl::ShaderSources& sources = {}, RayShader shader = ray_shader_of_device());
   ~VolumeView();
   VolumeView(VolumeView&&) noexcept;
   VolumeView& operator=(VolumeView&&) noexcept;

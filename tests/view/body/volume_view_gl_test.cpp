@@ -115,6 +115,39 @@ TEST_CASE("A thin sheet of bone has no holes") {
   }
 }
 
+// A grey level, because each kind of shader has code of its own from the driver, which may round otherwise.
+TEST_CASE("Fragment and compute shaders draw the same, in whole pictures and in parts") {
+  Scene scene = bone_scene([](const auto& p) { return glm::length(p * glm::dvec3(1, 0.7, 0.5)) < 40; });
+  OrbitCamera camera;
+  look_at_plane_from_below(scene, camera);
+  constexpr int kOddWidth = kWidth - 3, kOddHeight = kHeight - 5;  // no whole number of work groups
+  VolumeStyle of_ct;
+  of_ct.ct.emplace();
+  of_ct.ct->function.points = {{100, {0.9, 0.8, 0.7}, 0.0}, {700, {1.0, 0.9, 0.8}, 0.6}};
+  of_ct.cut = false;
+  for (const VolumeStyle& style : {VolumeStyle(), of_ct}) {
+    INFO(style.ct.has_value());
+    VolumeView fragments({}, view::RayShader::fragment), groups({}, view::RayShader::compute),
+        parts({}, view::RayShader::compute);
+    const auto drawn = [&](VolumeView& view, const view::VolumeBudget& budget = {}) {
+      return test::read(view.render(kOddWidth, kOddHeight, *scene.patient, camera, scene.plane, style, budget));
+    };
+    const Image<Rgba8> by_fragments = drawn(fragments), by_groups = drawn(groups);
+    drawn(parts, {1e-6, 1e-6});
+    CHECK(parts.scale() == 4);
+    while (parts.scale() > 1) drawn(parts, {1e-6, 1e-6});
+    CHECK(parts.renders() > 5);
+    const Image<Rgba8> by_parts = drawn(parts, {1e-6, 1e-6});
+    int largest = 0;
+    for (std::size_t i = 0; i < by_fragments.pixels.size(); ++i)
+      for (std::size_t c = 0; c < 4; ++c)
+        largest = std::max(largest, std::abs(by_fragments.pixels[i][c] - by_groups.pixels[i][c]));
+    CHECK(largest <= 1);
+    CHECK(by_parts.pixels == by_groups.pixels);
+    CHECK(extent_of(by_groups, is_bone_pixel).area > 500);
+  }
+}
+
 TEST_CASE("Left and right, head and feet are where they belong") {
   Scene scene = bone_scene(
       [](const auto& p) { return glm::all(glm::lessThan(glm::abs(p - glm::dvec3(50, 0, 30)), glm::dvec3(9))); });
