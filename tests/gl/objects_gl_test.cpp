@@ -13,6 +13,21 @@
 
 using namespace insonate;
 
+TEST_CASE("a buffer of texels is kept where it has the size and format that are asked for") {
+  const test::TestContext context;
+  gl::TexelBuffer buffer;
+  buffer.resize(GL_R32F, 4);
+  const GLuint first = buffer.values().name();
+  CHECK(first != 0);
+  buffer.resize(GL_R32F, 4);
+  CHECK(buffer.values().name() == first);
+  buffer.resize(GL_R32F, 5);
+  const GLuint longer = buffer.values().name();
+  CHECK(longer != first);
+  buffer.resize(GL_RG32F, 5);
+  CHECK(buffer.values().name() != longer);
+}
+
 // Some drivers leave thin parts of a 3D texture as they were when asked to clear them.
 TEST_CASE("a texture written inside has its margin on every side") {
   const test::TestContext context;

@@ -16,9 +16,9 @@ namespace insonate::view {
 ///
 /// The paper uses an octree for this. A grid of cells needs no tree: with a distance per cell, a ray leaps over any
 /// empty region in one or two steps. Cells of 4 voxels need 18 % less time per picture than cells of 8 (llvmpipe). For
-/// a CT of 512 x 512 x 484 voxels their ranges take 8 MiB, and the distances for a new function 10 to 15 ms on 2 cores.
-/// So each edit gets exact distances at once, without the maps per part of the range that Rauter, Zimmermann, Zeilinger
-/// (2024) combine.
+/// a CT of 512 x 512 x 484 voxels their ranges take 8 MiB, and the distances for a new function 10 to 15 ms on 2 cores;
+/// a graphics card measures them by itself. So each edit gets exact distances at once, without the maps per part of the
+/// range that Rauter, Zimmermann, Zeilinger (2024) combine.
 class MacroCells {
 public:
   static constexpr int kSide = 4;  ///< voxels per side
