@@ -453,7 +453,8 @@ void Screen::note_unopened() {
   using namespace std::chrono_literals;
   if (!opening_.valid() || opening_.wait_for(0s) != std::future_status::ready) return;
   if (!opening_.get())
-    show_note("No program of this computer opens it. It is " + std::filesystem::absolute(opened_).string());
+    show_note("No program of this computer is set to open it. Open it in a browser: " +
+              std::filesystem::absolute(opened_).string());
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.
@@ -463,7 +464,7 @@ void Screen::draw_toast(const Trainer& trainer) {
   if (reads && overlay(trainer) == top_page()) return toast_.wait();
   toast_is_aside_ = place(View::space).w > 0;
   const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
-  if (!file.empty()) show_on_desktop(file.parent_path());
+  if (!file.empty()) show_on_desktop(is_page(file) ? file : file.parent_path());
 }
 
 void Screen::draw_record_button(Trainer& trainer, const Rect& where) {
@@ -548,10 +549,12 @@ void Screen::draw_status(Trainer& trainer) {
     std::string problem = "Shaders kept as they were: " + trainer.shader_problem();
     std::replace(problem.begin(), problem.end(), '\n', ' ');
     draw_text(line, theme_.small_text, colour::kAmber, problem);
+    draw_tooltip(theme_, line, problem);
     return;
   }
   if (!trainer.calibration_warning().empty()) {
     draw_text(line, theme_.small_text, colour::kAmber, trainer.calibration_warning());
+    draw_tooltip(theme_, line, trainer.calibration_warning());
     return;
   }
   if (trainer.sweep().running()) {

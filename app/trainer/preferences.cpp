@@ -64,6 +64,9 @@ Preferences read_preferences(const fs::path& file) {
   read.out = table.text("out", "");
   read.cases = table.text("cases", "");
   read.results = table.text("results", "");
+  const std::vector<std::string> patients = table.texts("patients", 0, Preferences::kMostPatients);
+  read.patients.assign(patients.begin(), patients.end());
+  read.network_tracker = table.text("network_tracker", "");
   table.refuse_unknown_keys();
   return read;
 }
@@ -90,6 +93,10 @@ void write_preferences(const fs::path& file, const Preferences& preferences) {
   line("out", preferences.out.string());
   line("cases", preferences.cases.string());
   line("results", preferences.results.string());
+  text +=
+      "patients = " + toml_value(std::vector<std::string>(preferences.patients.begin(), preferences.patients.end())) +
+      "\n";
+  line("network_tracker", preferences.network_tracker);
   write_file(file, text);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/pictures/ct_look.h"
 #include "app/trainer/look.h"
@@ -18,6 +19,11 @@ struct Preferences {
   std::filesystem::path out;                         ///< reports, pictures and recordings; empty: "out", here
   std::filesystem::path cases;                       ///< whose case folders the start page lists; empty: none
   std::filesystem::path results;                     ///< the database; empty: the user's own
+
+  // What the person used last, and the start page offers again
+  static constexpr std::size_t kMostPatients = 8;
+  std::vector<std::filesystem::path> patients;  ///< CTs and case folders, the newest last
+  std::string network_tracker;                  ///< URI; empty: none
 
   bool operator==(const Preferences&) const = default;
 };

@@ -20,7 +20,8 @@ std::vector<std::string> figures(const Calibration& c) {
   if (c.tip) made[1] = formatted("residual %.2f mm", c.tip->value.residual_mm);
   if (c.face) made[2] = formatted("off the right angle by %.1f\u00b0", c.face->value.fit.skew_deg);
   if (c.mannequin) made[3] = formatted("accuracy %.1f mm", c.mannequin->value.accuracy_mm);
-  if (c.lag) made[4] = formatted("%.0f ms late", c.lag->value.lag_s * 1e3);
+  if (c.lag)
+    made[4] = formatted("%.0f ms %s", std::abs(c.lag->value.lag_s) * 1e3, c.lag->value.lag_s < 0 ? "early" : "late");
   return made;
 }
 
@@ -108,6 +109,12 @@ std::vector<SetupWizard::Row> SetupWizard::rows() const {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < kSetupSteps.size(); ++i) rows.push_back({kSetupSteps[i], kTitles[i], made[i]});
   return rows;
+}
+
+std::string SetupWizard::title_of(std::string_view name) const {
+  for (const Row& row : rows())
+    if (row.name == name) return row.title;
+  return "";
 }
 
 }  // namespace insonate

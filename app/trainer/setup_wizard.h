@@ -44,6 +44,8 @@ public:
     std::string figure;  ///< the step's result in short; empty if it has not been made
   };
   std::vector<Row> rows() const;
+  /// Returns the title of a step of kSetupSteps; empty for any other name.
+  std::string title_of(std::string_view name) const;
   std::size_t current() const { return current_; }
   SetupView view() const { return step_->view(); }
   /// Returns the places of the body that the step `landmarks` asks for, in its order.

@@ -41,7 +41,7 @@ std::string StartPage::why_no_exam() const {
                             : "An exam is kept under a learner's id: say on the right who is learning.";
   if (const std::int64_t number = taken_in(scenarios_[*scenario]))
     return learner() + " has taken this exam already, as attempt " + std::to_string(number) +
-           ". Choose another, or practise.";
+           " of the results. Choose another, or practise.";
   return "";
 }
 

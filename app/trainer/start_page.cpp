@@ -12,6 +12,7 @@
 #include "app/trainer/folder_list.h"
 #include "devices/calibrated_tracker.h"
 #include "devices/calibration/setup_input.h"
+#include "devices/registry.h"
 #include "scenarios/format/variants.h"
 #include "scenarios/results/roster.h"
 #include "scenarios/words.h"
@@ -343,9 +344,25 @@ void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
     trackers_.push_back(
         {tracker.uri(), tracker.name, tracker.state, tracker.why, tracker.kind->poses == PosesOf::sensor});
   // The command line's, and one on the network, are not found on a bus.
-  const auto same = [&](const OfferedTracker& offered) { return offered.uri == tracker(); };
-  if (std::none_of(trackers_.begin(), trackers_.end(), same))
-    trackers_.push_back({tracker(), tracker(), FoundTracker::State::ready, "", has_sensor(tracker()), false});
+  offer_tracker(network_tracker_);
+  offer_tracker(tracker());
+}
+
+/// Lists a tracker that no search has found.
+void StartPage::offer_tracker(const std::string& uri) {
+  const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
+  if (!uri.empty() && std::ranges::none_of(trackers_, same))
+    trackers_.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri), false});
+}
+
+void StartPage::offer_network_tracker(const std::string& uri) {
+  network_tracker_ = uri;
+  offer_tracker(uri);
+}
+
+std::string tracker_uri_of(std::string_view typed) {
+  const auto is_of = [&](const TrackerKind& kind) { return typed.substr(0, typed.find(':')) == kind.scheme; };
+  return (std::ranges::any_of(tracker_kinds(), is_of) ? "" : "igtl://") + std::string(typed);
 }
 
 void StartPage::choose_tracker(const std::string& uri) {
@@ -354,11 +371,8 @@ void StartPage::choose_tracker(const std::string& uri) {
   options_.tracker = uri;
   options_.calibration.clear();
   options_.record_raw.clear();
-  std::vector<OfferedTracker> shown = std::move(trackers_);
-  const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
-  if (std::none_of(shown.begin(), shown.end(), same))
-    shown.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri), false});
-  trackers_ = std::move(shown);
+  if (uri.starts_with("igtl:")) network_tracker_ = uri;
+  offer_tracker(uri);
 }
 
 void StartPage::choose_learner(const std::string& id) {
@@ -387,14 +401,41 @@ void StartPage::withdraw(const CaseSource& source) {
   patient = 0;
 }
 
-std::vector<OfferedPatient> StartPage::opened_patients() const {
-  std::vector<OfferedPatient> opened;
-  std::ranges::copy_if(patients_, std::back_inserter(opened), &OfferedPatient::opened);
+std::vector<fs::path> StartPage::opened_patients() const {
+  std::vector<fs::path> opened;
+  for (const OfferedPatient& offered : patients_)
+    if (offered.opened) opened.push_back(offered.source.ct.empty() ? offered.source.case_folder : offered.source.ct);
   return opened;
 }
 
-void StartPage::offer_again(const std::vector<OfferedPatient>& opened) {
-  patients_.insert(patients_.end(), opened.begin(), opened.end());
+void StartPage::offer_again(const std::vector<fs::path>& opened, const CaseSource& chosen) {
+  for (const fs::path& path : opened) {
+    try {
+      const Material material = kind_of_material(path);
+      if (material == Material::ct || material == Material::case_folder) offer_patient(path, material);
+    } catch (const InputError&) {  // on a disk that is not there now, for example
+    }
+  }
+  const auto same = [&](const OfferedPatient& offered) {
+    return offered.opened && is_patient_of(offered.source, chosen);
+  };
+  const auto found = std::ranges::find_if(patients_, same);
+  patient = found == patients_.end() ? 0 : std::size_t(found - patients_.begin());
+}
+
+/// Lists a CT or a case folder among the patients, unless it is there, and chooses it.
+void StartPage::offer_patient(const fs::path& path, Material material) {
+  const bool is_ct = material == Material::ct;
+  const std::string name = path.filename().string();
+  OfferedPatient offered{is_ct ? name : name_of_case(path), is_ct ? "CT" : "Case " + name, CaseSource{}, fs::path()};
+  (is_ct ? offered.source.ct : offered.source.case_folder) = path;
+  offered.about += " in " + path.parent_path().string();
+  offered.opened = true;
+  const auto there = std::ranges::find_if(patients_, [&](const OfferedPatient& other) {
+    return other.opened && is_patient_of(other.source, offered.source);
+  });
+  patient = std::size_t(there - patients_.begin());
+  if (there == patients_.end()) patients_.push_back(std::move(offered));
 }
 
 void StartPage::add(const fs::path& path) {
@@ -409,21 +450,9 @@ void StartPage::add(const fs::path& path) {
       if (task != Task::exam) task = Task::practice;
       return;
     case Material::case_folder:
-    case Material::ct: {
-      const bool is_ct = material == Material::ct;
-      OfferedPatient offered{is_ct ? name : name_of_case(path), is_ct ? "CT" : "Case " + name, CaseSource{},
-                             fs::path()};
-      (is_ct ? offered.source.ct : offered.source.case_folder) = path;
-      offered.about += " in " + path.parent_path().string();
-      offered.opened = true;
+    case Material::ct:
       task = Task::patients;
-      const auto there = std::ranges::find_if(patients_, [&](const OfferedPatient& other) {
-        return other.opened && is_patient_of(other.source, offered.source);
-      });
-      patient = std::size_t(there - patients_.begin());
-      if (there == patients_.end()) patients_.push_back(std::move(offered));
-      return;
-    }
+      return offer_patient(path, material);
     case Material::raw_log:
       return choose_tracker("raw:" + path.string());
     case Material::tracker_log: {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,9 @@ struct Beginning {
   bool free_practice = false;  ///< without the scenario's steps
 };
 
+/// Returns the URI of what a person types for a tracker: a computer on the network by its HOST:PORT, or a URI.
+std::string tracker_uri_of(std::string_view typed);
+
 /// Returns the options that replay a run, which needs no tracker.
 Options as_replay(Options options, const ReplaySource& replay);
 
@@ -95,12 +99,15 @@ public:
   void move_choice(int places);
   const std::vector<OfferedScenario>& scenarios() const { return scenarios_; }
   const std::vector<OfferedPatient>& patients() const { return patients_; }
-  /// Returns those of them that the person opened.
-  std::vector<OfferedPatient> opened_patients() const;
-  /// Offers patients that an earlier page had opened.
-  void offer_again(const std::vector<OfferedPatient>& opened);
+  /// Returns the CTs and case folders of those of them that the person opened, in that order.
+  std::vector<std::filesystem::path> opened_patients() const;
+  /// Offers patients that an earlier page had opened, and chooses the one that was chosen. Leaves out what is gone.
+  void offer_again(const std::vector<std::filesystem::path>& opened, const CaseSource& chosen);
   const std::vector<OfferedRun>& runs() const { return runs_; }
   const std::vector<OfferedTracker>& trackers() const { return trackers_; }
+  /// Returns the URI of the tracker on the network that was chosen or offered last; empty if there was none.
+  const std::string& network_tracker() const { return network_tracker_; }
+  void offer_network_tracker(const std::string& uri);
   const std::vector<std::string>& learners() const { return learners_; }
   /// Returns the number of the attempt in which the chosen learner took this exam; 0 if there is none.
   std::int64_t taken_in(const OfferedScenario& exam) const;
@@ -168,6 +175,8 @@ private:
   void read_runs();
   void read_database(ResultsDatabase& database);
   void list_trackers(const std::vector<FoundTracker>& found);
+  void offer_tracker(const std::string& uri);
+  void offer_patient(const std::filesystem::path& path, Material material);
   void add_scenario(const std::filesystem::path& file);
   const OfferedTracker* chosen_tracker() const;
   std::string why_no_learner() const;
@@ -183,6 +192,7 @@ private:
   std::vector<OfferedRun> runs_;
   std::map<std::string, std::filesystem::path> expert_of_;  ///< a skilled scan, by its scenario's digest
   std::vector<OfferedTracker> trackers_;
+  std::string network_tracker_;
   std::vector<std::string> learners_;
   std::vector<AttemptSummary> attempts_;  ///< newest first
   std::string problem_;

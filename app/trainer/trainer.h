@@ -339,6 +339,7 @@ private:
   void use_results(const std::filesystem::path& file);
   void make_start_page();
   void serve();
+  void remember(const StartPage& page);
   void keep_preferences();
   void notice_recordings();
   void notice_sweep();
@@ -349,7 +350,6 @@ private:
   Preferences preferences_;
   CtLook kept_ct_look_;
   std::filesystem::path preferences_file_;
-  std::vector<OfferedPatient> opened_;  ///< on the start page, for the next one
   Options given_;  ///< the command line's; on the start page and behind it options_ are the chosen ones
   std::optional<std::filesystem::file_time_type> shaders_changed_;
   double shaders_looked_at_s_ = 0;

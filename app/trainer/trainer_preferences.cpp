@@ -55,6 +55,16 @@ void Trainer::prefer(const Preferences& preferences) {
   keep_preferences();
 }
 
+/// Stores what the person has opened and typed on the start page, for the next one.
+void Trainer::remember(const StartPage& page) {
+  const Preferences before = preferences_;
+  preferences_.patients = page.opened_patients();
+  const std::size_t count = preferences_.patients.size(), most = Preferences::kMostPatients;
+  if (count > most) preferences_.patients.erase(preferences_.patients.begin(), preferences_.patients.end() - most);
+  preferences_.network_tracker = page.network_tracker();
+  if (before != preferences_) keep_preferences();
+}
+
 void Trainer::toggle_landmarks() {
   Preferences preferences = preferences_;
   preferences.look.landmarks = !preferences.look.landmarks;

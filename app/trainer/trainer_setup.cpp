@@ -151,7 +151,11 @@ void Trainer::open_setup() {
 
 void Trainer::end_setup() {
   if (!setup()) return;
-  const std::string missing = why_incomplete(setup()->calibration());
+  const Calibration& made = setup()->calibration();
+  const std::string missing = why_incomplete(made);
+  // Nobody who has only looked at the set-up is told that it is not complete.
+  const bool is_begun = made.axes || made.tip || made.face || made.mannequin || made.lag || uses_calibration(current_);
+  const std::string title = setup()->title_of(missing);
   if (options_.mode == Mode::setup && given_.mode != Mode::setup) {  // begun from the start page
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
@@ -167,9 +171,9 @@ void Trainer::end_setup() {
   attempt([&] { begin(loaded_case_, again); });
   if (!session() && in_exam()) return;
   if (!session()) return show_start_page();
-  if (setup_left_)
-    calibration_warning_ = "The set-up is not complete: the step '" + missing +
-                           "' is still to be made. The probe is where the tracker's first pose put it.";
+  if (setup_left_ && is_begun)
+    calibration_warning_ = "The step \"" + title +
+                           "\" of the set-up is still to be made: the probe is where the tracker's first pose put it.";
 }
 
 }  // namespace insonate

@@ -130,7 +130,8 @@ void Trainer::make_start_page() {
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
-  start_page()->offer_again(opened_);
+  start_page()->offer_again(preferences_.patients, current_.source);
+  start_page()->offer_network_tracker(preferences_.network_tracker);
   attempt([&] { start_page()->list_cases_in(preferences_.cases); });
   given_ = start_page()->options();
   options_ = given_;
@@ -166,7 +167,7 @@ void Trainer::begin(const Beginning& chosen) {
   if (!possible) return;
   if (const StartPage* page = start_page()) {
     given_ = page->options();
-    opened_ = page->opened_patients();
+    remember(*page);
   }
   options_ = chosen.options;
   guide_.turn(chosen.guided);

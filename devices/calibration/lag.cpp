@@ -80,7 +80,9 @@ Outcome<LagFit> lag_between(const Signal& late, const Signal& early) {
   for (long shift = first; shift <= last; ++shift) correlation.push_back(correlation_at(late, early, shift));
   const auto peak = std::max_element(correlation.begin(), correlation.end()) - correlation.begin();
   const double best = correlation[std::size_t(peak)];
-  if (best < kLeastCorrelation) return Refusal{"The two motions do not resemble each other; begin again."};
+  if (best < kLeastCorrelation)
+    return Refusal{
+        "The blows do not show in the tracker's motion. Strike the key with the probe itself, and begin again."};
   for (std::size_t i = 1; i + 1 < correlation.size(); ++i) {
     const bool is_peak = correlation[i] >= correlation[i - 1] && correlation[i] >= correlation[i + 1];
     const double apart_s = std::abs(double(i) - double(peak)) * late.step_s;

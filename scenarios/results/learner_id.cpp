@@ -15,10 +15,12 @@ std::string why_no_learner_id(std::string_view id) {
            std::to_string(kLongest);
   if (id.find_first_not_of(kAllowed) != std::string_view::npos) {
     std::string shown(id);
+    const bool has_space = id.find(' ') != std::string_view::npos;
     // Bytes outside printable ASCII would not display correctly, and the id may come from any file.
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
-    return "'" + shown + "' is not an opaque id of letters A to Z, digits, '.', '_' and '-'";
+    return "'" + shown + "' is not an opaque id: " + (has_space ? "it has a space; " : "") +
+           "only letters A to Z and a to z, digits, '.', '_' and '-' can stand in one";
   }
   return {};
 }

@@ -156,18 +156,18 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   sheet.take_bottom(theme.px(12));
   bool open = draw_entries(theme, sheet, places);
 
-  const bool any = path_[0] != 0;
+  // A folder is gone into, unless it is itself what is looked for.
+  const bool any = path_[0] != 0, is_here = path() == list_.folder;
+  const bool enters = is_plain_folder(path()) && !(is_folder(wanted_) && is_here);
   places["open_path"] = buttons.take_right(theme.px(140));
-  const bool asked =
-      button(theme, "open_path", places["open_path"], "Open  (Enter)", ButtonKind::primary, any) || confirmed_;
-  if (asked && any) {
-    // A folder is gone into, unless it is itself what is looked for.
-    const bool here = is_folder(wanted_) && path() == list_.folder;
-    if (!here && is_plain_folder(path()))
-      go_to(path());
-    else
-      open = true;
-  }
+  const bool asked = button(theme, "open_path", places["open_path"], "Open  (Enter)", ButtonKind::primary,
+                            any && !(enters && is_here)) ||
+                     confirmed_;
+  if (enters && is_here) draw_tooltip(theme, places["open_path"], "Choose a file or a folder in the list first.");
+  if (asked && enters)
+    go_to(path());
+  else if (asked && any)
+    open = true;
   buttons.take_right(theme.px(8));
   places["cancel_open"] = buttons.take_right(theme.px(140));
   if (button(theme, "cancel", places["cancel_open"], "Cancel  (Esc)")) answer = Answer::cancelled;

@@ -76,8 +76,9 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
               bad ? colour::kAmber : colour::kMuted, grade);
     lower.take_right(theme.px(10));
   }
-  draw_text(lower, theme.small_text, colour::kMuted,
-            session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows help" : source);
+  const std::string words = session.holder() == Holder::learner ? "Mouse and keyboard; F1 shows help" : source;
+  draw_text(lower, theme.small_text, colour::kMuted, words);
+  if (text_width(theme.small_text, words) > lower.w) draw_tooltip(theme, lower, words);
 }
 
 /// How far the step is, in a word or two.
@@ -194,7 +195,8 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
-              session.loaded_case().scenario        ? "Nothing is scored. The Steps button leads to scored steps."
+              session.loaded_case().scenario ? "Nothing is scored. The Steps button leads to the steps of \"" +
+                                                   session.loaded_case().scenario->title + "\"."
               : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."
                                                     : "The tracker moves the probe. Any arrow key takes it over.");
     return;

@@ -29,6 +29,7 @@ void draw_steps(const Theme& theme, Rect where, SetupWizard& wizard, std::map<st
     const bool current = i == wizard.current(), can = wizard.why_not(i).empty(), made = !rows[i].figure.empty();
     if (button(theme, id.c_str(), row, "", current ? ButtonKind::chosen : ButtonKind::normal, can) && !current)
       wizard.go_to(i);
+    draw_tooltip(theme, row, wizard.why_not(i));
     Rect text = row.inset(theme.px(14), theme.px(12));
     const Rect number = text.take_left(theme.px(32));
     const ImVec2 centre = number.centre();

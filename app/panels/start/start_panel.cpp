@@ -192,8 +192,7 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
   rest.take_top(theme.px(8));
   if (std::exchange(address_was_open_, address_.is_open()) && !address_.is_open() && !typed_address_.empty())
     attempt([&] {
-      const std::string address(trimmed(typed_address_));
-      page.choose_tracker(address.starts_with("igtl:") ? address : "igtl://" + address);
+      page.choose_tracker(tracker_uri_of(trimmed(typed_address_)));
       typed_address_.clear();
     });
   const Rect field = rest.take_top(theme.px(36));

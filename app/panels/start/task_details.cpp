@@ -282,7 +282,7 @@ StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page, st
       paragraph(theme, rest, colour::kMuted, "The mouse and the keyboard move the probe. You need nothing else.");
       draw_keys(theme, rest,
                 {{"Drag the probe", "in the 3D view: put it somewhere else"},
-                 {"Arrow keys", "slide it over the skin, as the 3D view shows it"},
+                 {"Arrow keys", "slide it: up to the head, right to the patient's left"},
                  {"E, Q", "rotate it"},
                  {"A, D", "tilt the beam"},
                  {"Space", "freeze the picture, and let it run again"},

@@ -45,7 +45,7 @@ std::filesystem::path Toast::draw(const Theme& theme, const Rect& where, std::ma
     Rect button_place = content.take_right(theme.px(120));
     button_place = {button_place.x, button_place.centre().y - theme.px(15), button_place.w, theme.px(30)};
     places["show_folder"] = button_place;
-    asked = button(theme, "show_folder", button_place, "Show folder");
+    asked = button(theme, "show_folder", button_place, is_page(file_) ? "Open report" : "Show folder");
   }
   content.y += (content.h - text_height) / 2;
   content.w = width + 1;

@@ -9,6 +9,11 @@
 
 namespace insonate::ui {
 
+/// Returns whether a file is a page to read, which is opened itself rather than its folder.
+inline bool is_page(const std::filesystem::path& file) {
+  return file.extension() == ".html";
+}
+
 /// A short message over the screen that goes away by itself, such as where a file was written, with a button that shows
 /// the file. A new message replaces the one before it.
 class Toast {

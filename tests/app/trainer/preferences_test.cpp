@@ -21,6 +21,8 @@ Preferences unusual() {
   preferences.out = "/srv/a \"quoted\" place/\u00e4";
   preferences.cases = "/srv/cases";
   preferences.results = "/srv/lab.db";
+  preferences.patients = {"/srv/a \"quoted\" CT.nii.gz", "/srv/cases/7"};
+  preferences.network_tracker = "igtl://plus:18944/ProbeToReference";
   return preferences;
 }
 

@@ -99,14 +99,19 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(patient.options.ct == folder / "water.mha");
   CHECK(patient.free_practice);
   CHECK_THROWS_WITH(page.add(folder / "nothing.mha"), Catch::Contains("there is no such file"));
-  const std::vector<OfferedPatient> opened = page.opened_patients();
-  REQUIRE(opened.size() == 1);
-  CHECK(opened.front().source.ct == folder / "water.mha");
+  const std::vector<std::filesystem::path> opened = page.opened_patients();
+  REQUIRE(opened == std::vector{folder / "water.mha"});
   StartPage later(Options{}, nullptr);
   CHECK(later.opened_patients().empty());
-  later.offer_again(opened);
+  later.offer_again({folder / "gone.mha", opened.front(), folder / "exam.toml"}, CaseSource{});
+  CHECK(later.opened_patients() == opened);
   CHECK(later.patients().back().name == "water.mha");
-  CHECK(later.opened_patients().size() == 1);
+  CHECK(later.patient == 0);
+  CaseSource chosen_before;
+  chosen_before.ct = opened.front();
+  later.offer_again(opened, chosen_before);
+  CHECK(later.opened_patients() == opened);  // and not twice
+  CHECK(later.patients()[later.patient].name == "water.mha");
 
   INFO("without a database there are no learners to look at");
   CHECK(page.tasks().size() == kTasks - 1);
@@ -124,6 +129,14 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   page.choose_tracker("igtl://localhost/Probe");
   CHECK(page.trackers().front().checked);
   CHECK_FALSE(page.trackers().back().checked);  // nobody has asked the network
+  CHECK(page.network_tracker() == "igtl://localhost/Probe");
+  CHECK(tracker_uri_of("plus:18944") == "igtl://plus:18944");
+  CHECK(tracker_uri_of("igtl://plus") == "igtl://plus");
+  CHECK(tracker_uri_of("synthetic:7?live=1") == "synthetic:7?live=1");
+  StartPage of_tomorrow(Options{}, nullptr);
+  of_tomorrow.offer_network_tracker(page.network_tracker());
+  CHECK(of_tomorrow.trackers().back().uri == "igtl://localhost/Probe");
+  CHECK(of_tomorrow.tracker() == "mouse:");
   const Beginning setup = chosen(Task::setup);
   CHECK(setup.options.mode == Mode::setup);
   CHECK(setup.options.tracker == "igtl://localhost/Probe");

@@ -46,6 +46,16 @@ remember_probe
 await "the probe moves again" far_enough
 banner_gone() { ! amber_in ultrasound; }
 await "the banner is gone" banner_gone
+
+echo "who only looks at the set-up is not told that it is not complete"
+xdotool key F2
+await "the set-up opens" is overlay setup
+xdotool key Escape
+await "the set-up closes" is overlay ""
+await "poses come" is_not face_z ""
+remember_probe
+await "the tracker moves the probe" far_enough
+contains calibration_warning ': ""' || fail "there is a warning"
 kill -0 "$trainer" || fail "the trainer ended by itself"
 kill "$trainer"
 wait "$trainer" 2>/dev/null || true

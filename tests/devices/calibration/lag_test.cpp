@@ -106,7 +106,7 @@ TEST_CASE("motions that do not determine the lag are refused") {
                  .refusal(),
              Contains("too steady"));
   CHECK_THAT(lag_between(sine(0, 0, [](double) { return 1.0; }), sine(0, 0, uneven)).refusal(),
-             Contains("do not resemble"));
+             Contains("do not show in the tracker's motion"));
   CHECK_FALSE(lag_between({}, sine(0, 0, uneven)));
   Signal coarse = sine(0, 0, uneven);
   coarse.step_s = 0.01;
