@@ -186,10 +186,9 @@ void Screen::draw_panels(Trainer& trainer) {
   if (trainer.session()) {
     draw_session(trainer);
   } else if (trainer.replay()) {
-    const std::optional<View> double_clicked =
-        draw_replay_page(theme_, {top_, place(View::ultrasound), place(View::recorded), place(View::space), console_},
-                         trainer, space_, recorded_panel_, places_, [&] { draw_space_buttons(trainer); });
-    draw_space_lines(trainer);
+    const std::optional<View> double_clicked = draw_replay_page(
+        theme_, {top_, place(View::ultrasound), place(View::recorded), place(View::space), console_}, trainer, space_,
+        recorded_panel_, places_, {[&] { draw_space_lines(trainer); }, [&] { draw_space_buttons(trainer); }});
     draw_ct_views(trainer, nullptr);
     draw_aside(trainer);
     if (double_clicked) enlarge(*double_clicked);
@@ -250,12 +249,15 @@ void Screen::draw_session(Trainer& trainer) {
 void Screen::draw_space(Trainer& trainer, const Guiding* guiding) {
   const Rect panel = place(View::space);
   if (panel.w <= 0) return;
-  if (space_.draw(theme_, panel, trainer.session(), trainer.pictures(), places_, [&] { draw_space_buttons(trainer); }))
+  const auto lines = [&] {
+    draw_space_lines(trainer);
+    if (trainer.swept() && trainer.session()->shows_anatomy())
+      draw_swept_box(theme_, panel, *trainer.swept(), trainer.pictures().camera);
+    if (guiding) draw_ghost(theme_, panel, *guiding, trainer.pictures().camera);
+  };
+  if (space_.draw(theme_, panel, trainer.session(), trainer.pictures(), places_,
+                  {lines, [&] { draw_space_buttons(trainer); }}))
     enlarge(View::space);
-  draw_space_lines(trainer);
-  if (trainer.swept() && trainer.session()->shows_anatomy())
-    draw_swept_box(theme_, panel, *trainer.swept(), trainer.pictures().camera);
-  if (guiding) draw_ghost(theme_, panel, *guiding, trainer.pictures().camera);
 }
 
 /// Draws the lines over the 3D view. They show what lies inside the patient.
@@ -275,7 +277,7 @@ void Screen::draw_space_buttons(Trainer& trainer) {
   draw_names_button(trainer, row);
   draw_effects_button(trainer, row);
   if (may_look(trainer) && button(theme_, "look", places_["look"] = row.take_right(theme_.px(58)), "Look",
-                                  aside_ == Aside::look ? ButtonKind::chosen : ButtonKind::normal, true,
+                                  aside_ == Aside::look && !large_ ? ButtonKind::chosen : ButtonKind::normal, true,
                                   "Shows organs, or the CT itself: skin, muscles, vessels, bones  (K)"))
     toggle_look(trainer);
 }
@@ -285,7 +287,8 @@ void Screen::draw_effects_button(Trainer& trainer, Rect& row) {
   const Rect where = places_["effects"] = row.take_right(theme_.px(78));
   row.take_right(theme_.px(4));
   const std::string why_not = trainer.session()->why_not(ActionKind::effect);
-  if (button(theme_, "effects", where, "Effects", aside_ == Aside::effects ? ButtonKind::chosen : ButtonKind::normal,
+  if (button(theme_, "effects", where, "Effects",
+             aside_ == Aside::effects && !large_ ? ButtonKind::chosen : ButtonKind::normal,
              why_not.empty() || aside_ == Aside::effects,
              why_not.empty() ? "Turns the effects of the picture off and on, one by one  (F8)" : why_not.c_str()))
     toggle_effects(trainer);
@@ -353,16 +356,21 @@ void Screen::switch_holder(Trainer& trainer) {
   trainer.attempt([&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
 }
 
+/// A large view hides the panels, so that their buttons lead out of it.
 void Screen::toggle(Aside panel, Trainer& trainer) {
+  put_aside(aside_ == panel && !large_ ? Aside::none : panel, trainer);
+}
+
+void Screen::put_aside(Aside panel, Trainer& trainer) {
   if (aside_ == Aside::look) trainer.keep_look();
-  aside_ = aside_ == panel ? Aside::none : panel;
+  aside_ = panel;
   large_.reset();
 }
 
 /// Closes the panel in place of the CT's views. Returns whether one was shown.
 bool Screen::close_aside(Trainer& trainer) {
   if (shown_aside(trainer) == Aside::none) return false;
-  toggle(aside_, trainer);
+  put_aside(Aside::none, trainer);
   return true;
 }
 

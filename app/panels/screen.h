@@ -159,6 +159,7 @@ private:
   enum class Aside { none, look, effects };
   Aside shown_aside(const Trainer& trainer) const;
   void toggle(Aside panel, Trainer& trainer);
+  void put_aside(Aside panel, Trainer& trainer);
   bool close_aside(Trainer& trainer);
   void draw_space_lines(const Trainer& trainer);
   void draw_ct_views(Trainer& trainer, const Guiding* guiding);

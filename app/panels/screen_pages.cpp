@@ -434,7 +434,7 @@ void Screen::answer_score(Trainer& trainer, ScoreAnswer answer) {
 }
 
 void Screen::draw_start_page(Trainer& trainer) {
-  if (aside_ != Aside::none) toggle(aside_, trainer);
+  if (aside_ != Aside::none) put_aside(Aside::none, trainer);
   const auto attempt = [&](const std::function<void()>& action) { trainer.attempt(action); };
   const StartAnswer answer = start_panel_.draw(theme_, screen_, *trainer.start_page(), attempt, places_);
   switch (answer.kind) {

@@ -117,7 +117,7 @@ void draw_paths(const Theme& theme, const Rect& panel, const Replay& replay, con
 
 std::optional<View> draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer,
                                      SpacePanel& space, RecordedPanel& recorded, std::map<std::string, Rect>& names,
-                                     const std::function<void()>& more_buttons) {
+                                     const SpaceOverlay& overlay) {
   Replay& replay = *trainer.replay();
   const LoadedCase& loaded_case = *trainer.loaded_case();
   const Scenario* scenario = loaded_case.scenario ? &*loaded_case.scenario : nullptr;
@@ -129,8 +129,12 @@ std::optional<View> draw_replay_page(const Theme& theme, const ReplayPlaces& pla
     double_clicked = View::ultrasound;
   if (places.recorded.w > 0) recorded.draw(theme, places.recorded, replay, trainer.pictures());
   if (places.space.w > 0) {
-    if (space.draw(theme, places.space, nullptr, trainer.pictures(), names, more_buttons)) double_clicked = View::space;
-    draw_paths(theme, places.space, replay, trainer.pictures().camera);
+    const auto lines = [&] {
+      overlay.lines();
+      draw_paths(theme, places.space, replay, trainer.pictures().camera);
+    };
+    if (space.draw(theme, places.space, nullptr, trainer.pictures(), names, {lines, overlay.buttons}))
+      double_clicked = View::space;
   }
   draw_timeline_panel(theme, places.timeline, replay, scenario, names);
   return double_clicked;

@@ -20,9 +20,9 @@ struct ReplayPlaces {
 /// Draws the screen of a replay: the step and its outcome, the picture with the settings of the moment, the recording's
 /// own image beside it, the patient with the probe's path so far and the expert's path, and the time line. The
 /// caller draws the CT's pictures, as in a session. Returns the view that was double-clicked.
-/// @param more_buttons  draws further buttons over the 3D view
+/// @param overlay  what else is drawn over the 3D view
 std::optional<View> draw_replay_page(const Theme& theme, const ReplayPlaces& places, Trainer& trainer,
                                      SpacePanel& space, RecordedPanel& recorded, std::map<std::string, Rect>& names,
-                                     const std::function<void()>& more_buttons);
+                                     const SpaceOverlay& overlay);
 
 }  // namespace insonate::ui

@@ -67,12 +67,13 @@ void draw_stop(const Theme& theme, const Rect& panel) {
 }  // namespace
 
 bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures,
-                      std::map<std::string, Rect>& places, const std::function<void()>& more_buttons) {
+                      std::map<std::string, Rect>& places, const SpaceOverlay& overlay) {
   fill(panel, colour::kImage, theme.px(4));
   if (const gl::Texture* picture = pictures.volume())
     ImGui::GetWindowDrawList()->AddImage(id_of(*picture), panel.min(), panel.max());
+  overlay.lines();
   draw_view_buttons(theme, panel, pictures, places);  // before the picture's own item, which lies below
-  more_buttons();
+  overlay.buttons();
   ImGui::SetCursorScreenPos(panel.min());
   ImGui::InvisibleButton(
       "space", {panel.w, panel.h},

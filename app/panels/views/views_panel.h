@@ -10,6 +10,12 @@
 
 namespace insonate::ui {
 
+/// What else is drawn over the picture of the 3D view: lines below its buttons, and further buttons.
+struct SpaceOverlay {
+  std::function<void()> lines = [] {};
+  std::function<void()> buttons = [] {};
+};
+
 /// Draws the patient in space with the ultrasound's plane in it. The mouse works as in 3D Slicer: dragging beside the
 /// probe rotates the patient; with the middle button, or with Shift, it shifts the patient; with the right button it
 /// zooms, upwards nearer, as the wheel does. Dragging the probe puts it elsewhere on the skin.
@@ -18,11 +24,9 @@ class SpacePanel {
 public:
   /// @param session  nullptr if there is no probe to drag
   /// Returns whether the panel was double-clicked.
-  /// @param places        receives the buttons' rectangles
-  /// @param more_buttons  draws further buttons over the picture
-  bool draw(
-      const Theme& theme, const Rect& panel, Session* session, Pictures& pictures, std::map<std::string, Rect>& places,
-      const std::function<void()>& more_buttons = [] {});
+  /// @param places  receives the buttons' rectangles
+  bool draw(const Theme& theme, const Rect& panel, Session* session, Pictures& pictures,
+            std::map<std::string, Rect>& places, const SpaceOverlay& overlay = {});
 
 private:
   bool holds_probe_ = false;

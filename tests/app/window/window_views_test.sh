@@ -53,6 +53,11 @@ click_on look_save
 await "a message names the file" contains toast "Saved"
 ls "$XDG_CONFIG_HOME"/insonate/transfer_functions/Bones__edited_-*.toml >/dev/null || fail "there is no file of the look"
 await "the saved look is offered" is_not look7_x ""
+echo "a large view hides the panel, and its button leads back to it"
+xdotool mousemove "$(middle_x space)" "$(middle_y space)" click --repeat 2 --delay 80 1
+await "the panel goes" is look_panel_x ""
+click_on look
+await "the panel comes back" is_not look_panel_x ""
 click_on look_close
 await "the CT's views come back" is_not slice_x ""
 
