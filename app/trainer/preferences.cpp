@@ -35,6 +35,14 @@ fs::path preferences_file() {
   throw InputError("environment", "", "neither XDG_CONFIG_HOME nor HOME says where to keep settings", "set HOME");
 }
 
+bool can_be_kept(const fs::path& path) {
+  try {
+    return TomlDocument("settings", "path = " + toml_value(path.string())).root().text("path") == path.string();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 Preferences read_preferences(const fs::path& file) {
   Preferences read;
   std::error_code error;

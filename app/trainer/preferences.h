@@ -32,6 +32,9 @@ struct Preferences {
 /// neither variable is set.
 std::filesystem::path preferences_file();
 
+/// Returns whether a path can stand in such a file: TOML holds Unicode alone, and names of files hold any bytes.
+bool can_be_kept(const std::filesystem::path& path);
+
 /// Reads preferences; the defaults if there is no such file. Throws InputError for a file that cannot be used.
 Preferences read_preferences(const std::filesystem::path& file);
 /// Writes preferences so that read_preferences() returns them. Throws InputError if the file cannot be written.

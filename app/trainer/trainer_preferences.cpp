@@ -59,6 +59,7 @@ void Trainer::prefer(const Preferences& preferences) {
 void Trainer::remember(const StartPage& page) {
   const Preferences before = preferences_;
   preferences_.patients = page.opened_patients();
+  std::erase_if(preferences_.patients, [](const std::filesystem::path& path) { return !can_be_kept(path); });
   const std::size_t count = preferences_.patients.size(), most = Preferences::kMostPatients;
   if (count > most) preferences_.patients.erase(preferences_.patients.begin(), preferences_.patients.end() - most);
   preferences_.network_tracker = page.network_tracker();

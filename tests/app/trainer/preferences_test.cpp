@@ -38,6 +38,11 @@ TEST_CASE("preferences are read as they were written, and without a file they ar
   CHECK(read_preferences(file) == Preferences());
 }
 
+TEST_CASE("a path is kept only if the file of preferences can hold it") {
+  CHECK(can_be_kept("/srv/\u00e4 \"quoted\"\n\\ CT.nii"));
+  CHECK_FALSE(can_be_kept("/srv/\xe4.nii"));  // Latin-1
+}
+
 TEST_CASE("a file of preferences that cannot be used is refused with its place, one key at a time") {
   const TemporaryFolder folder;
   const auto file = folder.path / "settings.toml";
