@@ -461,8 +461,8 @@ void Screen::note_unopened() {
   using namespace std::chrono_literals;
   if (!opening_.valid() || opening_.wait_for(0s) != std::future_status::ready) return;
   if (!opening_.get())
-    show_note("No program of this computer is set to open it. Open it in a browser: " +
-              std::filesystem::absolute(opened_).string());
+    show_note(std::string("No program of this computer is set to open it. ") +
+              (is_page(opened_) ? "Open it in a browser: " : "It is ") + std::filesystem::absolute(opened_).string());
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.

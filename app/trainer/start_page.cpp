@@ -243,7 +243,7 @@ void StartPage::list_cases() {
     }
   const auto listed = [](const OfferedPatient& offered) { return !offered.listed_in.empty(); };
   const auto same = [](const OfferedPatient& a, const OfferedPatient& b) {
-    return a.source.case_folder == b.source.case_folder && a.listed_in == b.listed_in;
+    return is_patient_of(a.source, b.source) && a.listed_in == b.listed_in;
   };
   std::vector<OfferedPatient> before;
   std::copy_if(patients_.begin(), patients_.end(), std::back_inserter(before), listed);
@@ -253,9 +253,10 @@ void StartPage::list_cases() {
       patient < patients_.size() ? std::optional(patients_[patient]) : std::nullopt;
   std::erase_if(patients_, listed);
   patients_.insert(patients_.end(), cases.begin(), cases.end());
-  patient = 0;
-  for (std::size_t i = 0; chosen && i < patients_.size(); ++i)
-    if (same(patients_[i], *chosen) && patients_[i].name == chosen->name) patient = i;
+  const auto found = std::ranges::find_if(patients_, [&](const OfferedPatient& offered) {
+    return chosen && same(offered, *chosen) && offered.name == chosen->name;
+  });
+  patient = found == patients_.end() ? 0 : std::size_t(found - patients_.begin());
 }
 
 void StartPage::read_database(ResultsDatabase& database) {
@@ -360,9 +361,17 @@ void StartPage::offer_network_tracker(const std::string& uri) {
   offer_tracker(uri);
 }
 
+fs::path path_of(const CaseSource& source) {
+  return source.ct.empty() ? source.case_folder : source.ct;
+}
+
 std::string tracker_uri_of(std::string_view typed) {
-  const auto is_of = [&](const TrackerKind& kind) { return typed.substr(0, typed.find(':')) == kind.scheme; };
-  return (std::ranges::any_of(tracker_kinds(), is_of) ? "" : "igtl://") + std::string(typed);
+  const std::size_t colon = typed.find(':');
+  const auto is_of = [&](const TrackerKind& kind) { return typed.substr(0, colon) == kind.scheme; };
+  // A computer can have the name of a scheme.
+  const bool is_port = colon + 1 < typed.size() && typed.find_first_not_of("0123456789", colon + 1) == typed.npos;
+  const bool is_uri = colon != typed.npos && !is_port && std::ranges::any_of(tracker_kinds(), is_of);
+  return (is_uri ? "" : "igtl://") + std::string(typed);
 }
 
 void StartPage::choose_tracker(const std::string& uri) {
@@ -404,7 +413,7 @@ void StartPage::withdraw(const CaseSource& source) {
 std::vector<fs::path> StartPage::opened_patients() const {
   std::vector<fs::path> opened;
   for (const OfferedPatient& offered : patients_)
-    if (offered.opened) opened.push_back(offered.source.ct.empty() ? offered.source.case_folder : offered.source.ct);
+    if (offered.opened) opened.push_back(path_of(offered.source));
   return opened;
 }
 

@@ -78,6 +78,9 @@ struct Beginning {
   bool free_practice = false;  ///< without the scenario's steps
 };
 
+/// Returns the CT or the case folder of a patient; empty for the built-in one.
+std::filesystem::path path_of(const CaseSource& source);
+
 /// Returns the URI of what a person types for a tracker: a computer on the network by its HOST:PORT, or a URI.
 std::string tracker_uri_of(std::string_view typed);
 

@@ -195,7 +195,7 @@ void Trainer::take_over_loaded() {
   give_up_choice();
   if (StartPage* page = start_page(); page && !loads && requested_.source.scenario.empty()) {
     page->withdraw(requested_.source);
-    remember(*page);
+    forget_patient(requested_.source);
   }
   // A trainer whose command line names something unusable goes on with the start page, and with nothing but the exam if
   // that was asked for.

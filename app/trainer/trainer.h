@@ -340,6 +340,7 @@ private:
   void make_start_page();
   void serve();
   void remember(const StartPage& page);
+  void forget_patient(const CaseSource& patient);
   void keep_preferences();
   void notice_recordings();
   void notice_sweep();

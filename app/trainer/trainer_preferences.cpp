@@ -55,15 +55,28 @@ void Trainer::prefer(const Preferences& preferences) {
   keep_preferences();
 }
 
-/// Stores what the person has opened and typed on the start page, for the next one.
+/// Stores what the person has opened and typed on the start page, for the next one. What is not there now, such as a CT
+/// on a disk that is away, stays.
 void Trainer::remember(const StartPage& page) {
   const Preferences before = preferences_;
-  preferences_.patients = page.opened_patients();
-  std::erase_if(preferences_.patients, [](const std::filesystem::path& path) { return !can_be_kept(path); });
-  const std::size_t count = preferences_.patients.size(), most = Preferences::kMostPatients;
-  if (count > most) preferences_.patients.erase(preferences_.patients.begin(), preferences_.patients.end() - most);
-  preferences_.network_tracker = page.network_tracker();
+  std::vector<std::filesystem::path>& kept = preferences_.patients;
+  const auto append = [&](const std::filesystem::path& path) {
+    const std::filesystem::path whole = std::filesystem::absolute(path);
+    std::erase(kept, whole);
+    if (can_be_kept(whole)) kept.push_back(whole);
+  };
+  for (const std::filesystem::path& opened : page.opened_patients())
+    if (std::ranges::find(kept, std::filesystem::absolute(opened)) == kept.end()) append(opened);
+  const bool is_used = page.task == Task::patients && page.patient < page.patients().size();
+  if (is_used && page.patients()[page.patient].opened) append(path_of(page.patients()[page.patient].source));
+  if (kept.size() > Preferences::kMostPatients) kept.erase(kept.begin(), kept.end() - Preferences::kMostPatients);
+  if (can_be_kept(page.network_tracker())) preferences_.network_tracker = page.network_tracker();
   if (before != preferences_) keep_preferences();
+}
+
+/// Forgets a patient that cannot be used.
+void Trainer::forget_patient(const CaseSource& patient) {
+  if (std::erase(preferences_.patients, std::filesystem::absolute(path_of(patient))) > 0) keep_preferences();
 }
 
 void Trainer::toggle_landmarks() {

@@ -153,7 +153,7 @@ void Trainer::end_setup() {
   if (!setup()) return;
   const Calibration& made = setup()->calibration();
   const std::string missing = why_incomplete(made);
-  // Nobody who has only looked at the set-up is told that it is not complete.
+  // Who has only looked at a set-up that nobody has begun is not told that it is incomplete.
   const bool is_begun = made.axes || made.tip || made.face || made.mannequin || made.lag || uses_calibration(current_);
   const std::string title = setup()->title_of(missing);
   if (options_.mode == Mode::setup && given_.mode != Mode::setup) {  // begun from the start page

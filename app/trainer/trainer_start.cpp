@@ -53,13 +53,17 @@ bool Trainer::leads_to_check() const {
 void Trainer::show_learners(const LearnersChoice& choice) {
   const StartPage* page = start_page();
   if (!page || page->database().empty()) return;
+  remember(*page);
   given_ = options_ = page->options();
   attempt([&] { mode_ = Overseeing{std::make_unique<LearnersPage>(page->database(), choice)}; });
 }
 
 void Trainer::check_scenario(const std::filesystem::path& file) {
   if (loading_) return;
-  if (const StartPage* page = start_page()) given_ = options_ = page->options();
+  if (const StartPage* page = start_page()) {
+    remember(*page);
+    given_ = options_ = page->options();
+  }
   if (!start_page() && !check_page() && !std::holds_alternative<Idle>(mode_)) return;
   mode_ = Checking{std::make_unique<CheckPage>(file, options_.case_folder)};
 }

@@ -144,8 +144,8 @@ const StepKind* kind_called(std::string_view name) {
   return nullptr;
 }
 
-/// Returns the kind that a step has. For a misspelt one, which is reported, it returns the kind that must be meant, so
-/// that the step's other mistakes are reported too.
+/// Returns the kind that a step has. For a misspelt one, which is reported, it returns the one that is probably
+/// meant, so that the step's other mistakes are reported too.
 const StepKind* read_kind(const TomlTable& table) {
   const std::string word = table.text("kind");
   const StepKind* kind = kind_called(word);

@@ -143,8 +143,10 @@ void Simulator::State::lay_out() {
   fan_weights = TexelBuffer();
   fused = TexelBuffer();
   if (image.width() != w || image.height() != h) {
-    image = Texture::make_picture(w, h, Filter::linear);
+    // Both or none, should the device refuse one.
+    Texture picture_of_size = Texture::make_picture(w, h, Filter::linear);
     image_words = Buffer(pixels() * sizeof(GLuint), nullptr);
+    image = std::move(picture_of_size);
   }
   image_words.clear();
   layout_changed = false;

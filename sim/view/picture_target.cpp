@@ -12,11 +12,10 @@ void set(GLenum capability, bool on) {
 
 }  // namespace
 
-bool PictureTarget::resize(int width, int height) {
-  if (texture && texture.width() == width && texture.height() == height) return false;
+void PictureTarget::resize(int width, int height) {
+  if (has_size(width, height)) return;
   texture = gl::Texture::make_picture(width, height, gl::Filter::linear);
   framebuffer = gl::Framebuffer(texture);
-  return true;
 }
 
 ScopedDrawTarget::ScopedDrawTarget(const gl::Framebuffer& target, int first_row, int end_row)

@@ -9,8 +9,11 @@ struct PictureTarget {
   gl::Texture texture;
   gl::Framebuffer framebuffer;
 
-  /// Makes a new picture if the size differs, and returns whether it did.
-  bool resize(int width, int height);
+  /// Makes new textures if the size differs.
+  void resize(int width, int height);
+  bool has_size(int width, int height) const {
+    return texture && texture.width() == width && texture.height() == height;
+  }
 };
 
 /// Directs drawing, while it exists, into rows [first, end) of a target, without blending or tests. The destructor

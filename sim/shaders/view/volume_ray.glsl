@@ -1,6 +1,6 @@
-// Ray casting for the volume view: what lies along a ray, and how it looks. To be included before one of the
-// files that march along the ray: organ_march.glsl or ct_march.glsl. It reads the CT, the ultrasound picture, and the
-// tissue and body textures.
+// Ray casting for the volume view: what lies along a ray, and how it looks. To be included before one of the files that
+// march along the ray: organ_march.glsl or ct_march.glsl. It reads the CT, the ultrasound picture, and the tissue and
+// body textures.
 
 #include "view/volume_view_parameters.h"
 #include "view/hounsfield.glsl"

@@ -28,8 +28,8 @@ ClassifiedCt::ClassifiedCt(const gl::ShaderSources& sources, RayShader shader) {
 
 void ClassifiedCt::measure_distances(const glm::ivec3& cells, const std::vector<std::uint8_t>& occupied) {
   if (glm::ivec3(distances_.width(), distances_.height(), distances_.depth()) != cells) {
+    if (passes_) between_passes_ = cell_texture(cells);  // first, because the size of the other is what counts
     distances_ = cell_texture(cells);
-    if (passes_) between_passes_ = cell_texture(cells);
   }
   distances_.write(GL_RED_INTEGER, GL_UNSIGNED_BYTE, (passes_ ? occupied : distance_map(cells, occupied)).data());
   for (int axis = 0; passes_ && axis < 3; ++axis) {

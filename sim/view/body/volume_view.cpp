@@ -223,8 +223,9 @@ void VolumeView::State::bind(const VolumeInputs& inputs, const UltrasoundPlane& 
 }
 
 void VolumeView::State::draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, Rows rows) {
-  if (full.resize(inputs.width, inputs.height) && by_groups)
+  if (by_groups && !full.has_size(inputs.width, inputs.height))
     full_words = gl::Buffer(std::size_t(inputs.width) * std::size_t(inputs.height) * sizeof(GLuint), nullptr);
+  full.resize(inputs.width, inputs.height);
   bind(inputs, plane, inputs.width, inputs.height, 1, rows);
   whole.define(defines_for(inputs.style.ct));
   pace.begin(rows.first == 0);

@@ -133,6 +133,8 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(tracker_uri_of("plus:18944") == "igtl://plus:18944");
   CHECK(tracker_uri_of("igtl://plus") == "igtl://plus");
   CHECK(tracker_uri_of("synthetic:7?live=1") == "synthetic:7?live=1");
+  CHECK(tracker_uri_of("hydra:") == "hydra:");
+  CHECK(tracker_uri_of("hydra:18944") == "igtl://hydra:18944");
   StartPage of_tomorrow(Options{}, nullptr);
   of_tomorrow.offer_network_tracker(page.network_tracker());
   CHECK(of_tomorrow.trackers().back().uri == "igtl://localhost/Probe");

@@ -292,3 +292,37 @@ TEST_CASE("settings are taken on the start page and kept, and a database that ca
   CHECK(trainer.options().out == wanted.out);
   CHECK(read_preferences(file) == wanted);
 }
+
+TEST_CASE("the next start offers what was opened, the newest last, and forgets nothing that is away for a while") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  const auto file = folder.path / "settings.toml", away = folder.path / "disk" / "away.nii.gz";
+  const auto other = folder.path / "other";
+  std::filesystem::copy(folder.path / "tiny", other, std::filesystem::copy_options::recursive);
+  Preferences before;
+  before.patients = {folder.path / "tiny", away};
+  write_preferences(file, before);
+  {
+    Trainer trainer(options, read_preferences(file), file);
+    trainer.open_from_options();
+    REQUIRE(trainer.start_page());
+    CHECK(trainer.start_page()->opened_patients() == std::vector{folder.path / "tiny"});
+    trainer.start_page()->add(other);
+    trainer.start_page()->choose_tracker("igtl://localhost:18999/Probe");
+    trainer.show_learners();  // and back, by which nothing is lost
+    trainer.show_start_page();
+    CHECK(read_preferences(file).patients == std::vector{folder.path / "tiny", away, other});
+    CHECK(read_preferences(file).network_tracker == "igtl://localhost:18999/Probe");
+    trainer.start_page()->choose_tracker("mouse:");
+    trainer.start_page()->add(folder.path / "tiny");
+    begin(trainer);
+    trainer.show_start_page();
+    REQUIRE(trainer.start_page());
+    CHECK(trainer.start_page()->patients()[trainer.start_page()->patient].source.case_folder == folder.path / "tiny");
+  }
+  CHECK(read_preferences(file).patients == std::vector{away, other, folder.path / "tiny"});
+  CHECK(read_preferences(file).network_tracker == "igtl://localhost:18999/Probe");
+}

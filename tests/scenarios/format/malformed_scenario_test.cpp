@@ -223,7 +223,7 @@ TEST_CASE("a step whose kind is wrong has its wrong keys reported too, and no ke
   }
 }
 
-TEST_CASE("a step whose kind is misspelt is read as the kind that must be meant") {
+TEST_CASE("a step whose kind is misspelt is read as the kind that is probably meant") {
   std::string text = with(kEverything, "kind = \"measure\"", "kind = \"measur\"");
   text = with(text, "walls = \"outer to outer\"", "wall = \"outer to outer\"");
   text = with(text, "metric = \"measurement_error_mm\"\nfull = 3", "metric = \"coverage_percent\"\nfull = 3");
