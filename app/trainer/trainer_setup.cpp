@@ -156,18 +156,21 @@ void Trainer::end_setup() {
   // Who has only looked at a set-up that nobody has begun is not told that it is incomplete.
   const bool is_begun = made.axes || made.tip || made.face || made.mannequin || made.lag || uses_calibration(current_);
   const std::string title = setup()->title_of(missing);
-  if (options_.mode == Mode::setup && given_.mode != Mode::setup) {  // begun from the start page
+  const bool is_own_mode = options_.mode == Mode::setup, from_start_page = given_.mode != Mode::setup;
+  if (is_own_mode && (from_start_page || !missing.empty())) {
+    given_.mode = Mode::practice;
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
     return;
   }
-  if (options_.mode == Mode::setup) options_.mode = Mode::practice;
+  if (is_own_mode) options_.mode = Mode::practice;
   options_.tracker = current_.tracker;
   if (missing.empty()) options_.calibration = setup()->file();
   why_not_calibrated_.clear();
   setup_left_ = !missing.empty();
   mode_ = Idle();
-  const Request again = current_;
+  Request again = current_;
+  again.free_practice = again.free_practice || (is_own_mode && options_.scenario.empty());
   attempt([&] { begin(loaded_case_, again); });
   if (!session() && in_exam()) return;
   if (!session()) return show_start_page();

@@ -76,6 +76,14 @@ void draw_box(const Theme& theme, const Rect& of, std::string_view words) {
                 text.data(), text.data() + text.size(), size.x + 1);
 }
 
+/// Returns for how long the pointer has not moved, by the frames that asked.
+float pointer_rests_s() {
+  static double moved_s = 0;
+  const ImVec2& way = ImGui::GetIO().MouseDelta;
+  if (way.x != 0 || way.y != 0) moved_s = ImGui::GetTime();
+  return float(ImGui::GetTime() - moved_s);
+}
+
 }  // namespace
 
 void hide_tips(bool hidden) {
@@ -241,8 +249,11 @@ bool upright_slider(const Theme& theme, const char* id, const Rect& where, doubl
 
 void draw_tip(const Theme& theme, const Rect& of, std::string_view text) {
   constexpr float kRest_s = 0.5f, kRead_s = 8;  // longer, it would cover what is beside it for no reason
+  constexpr float kSame_s = 0.1f;               // two moments of one movement
   const float hovered_s = ImGui::GetCurrentContext()->HoveredIdTimer;
-  if (ImGui::IsItemHovered() && hovered_s > kRest_s && hovered_s < kRead_s) draw_box(theme, of, text);
+  // A control that a page brings under a pointer at rest was not asked about.
+  const bool is_entered = pointer_rests_s() < hovered_s + kSame_s;
+  if (ImGui::IsItemHovered() && is_entered && hovered_s > kRest_s && hovered_s < kRead_s) draw_box(theme, of, text);
 }
 
 void draw_tooltip(const Theme& theme, const Rect& of, std::string_view text) {

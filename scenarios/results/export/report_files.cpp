@@ -39,8 +39,10 @@ std::string with_comments(const Attempt& attempt) {
 }  // namespace
 
 std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt) {
-  const std::filesystem::path scenario = std::filesystem::path(attempt.scenario_file).stem();
-  return free_path(folder / "attempts" / (file_time(attempt.finished_ms) + "_" + scenario.string()), "");
+  const std::string scenario = std::filesystem::path(attempt.scenario_file).stem().string();
+  const std::string name = file_time(attempt.finished_ms) + "_" + scenario;
+  if (attempt.number > 0) return folder / "attempts" / (name + "_" + std::to_string(attempt.number));
+  return free_path(folder / "attempts" / name, "");
 }
 
 ResultFiles write_report_files(const std::filesystem::path& folder, const Attempt& attempt,

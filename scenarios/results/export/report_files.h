@@ -18,8 +18,9 @@ struct ResultFiles {
   std::vector<std::filesystem::path> all() const;
 };
 
-/// Returns a folder for the report of one attempt, which does not exist yet. Its name sorts by the attempt's end and
-/// ends in the scenario's name: FOLDER/attempts/2026-11-24T21-57-03Z_aorta. The time is UTC, as in the report.
+/// Returns the folder for the report of one attempt: FOLDER/attempts/2026-11-24T21-57-03Z_aorta_12, by its end in UTC,
+/// the scenario's name and its number in the database. It is the same each time, so that a report that is written again
+/// takes the place of the former one. For an attempt that is not in a database it is a new folder without a number.
 std::filesystem::path attempt_folder(const std::filesystem::path& folder, const Attempt& attempt);
 
 /// Writes the files of an attempt for people and programs to a folder: report.html, score.json, score.csv, and

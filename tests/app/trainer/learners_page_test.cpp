@@ -211,7 +211,8 @@ TEST_CASE("comments are added to the chosen attempt and removed, and reports and
   CHECK(page.comments().size() == 1);
 
   const auto report = page.write_report(folder / "out");
-  CHECK(report == folder / "out/attempts/2026-11-21T18-05-09Z_exam/report.html");
+  CHECK(report == folder / "out/attempts/2026-11-21T18-05-09Z_exam_1/report.html");
+  CHECK(page.write_report(folder / "out") == report);
   CHECK(read_file(report).find("Slow down<small>T-02, ") != std::string::npos);
   const auto tables = page.export_tables(folder / "out"), again = page.export_tables(folder / "out");
   CHECK(tables.parent_path() == folder / "out/tables");

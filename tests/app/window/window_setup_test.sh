@@ -101,6 +101,14 @@ await "it is left for practice" is activity practice
 xdotool key F2
 await "and opens again" is overlay setup
 
+echo "the mode setup is left for the start page where the calibration is incomplete"
+kill "$trainer"
+wait "$trainer" 2>/dev/null || true
+start_trainer setup --tracker "replay:$work/pivot.igs.mha?loop=1" --calibration "$work/new.toml" --ct "$work/water.mha"
+await "the set-up opens" is overlay setup
+xdotool key Escape
+await "it is left for the start page" is start_task setup
+
 echo "where no tracker with a sensor is used, another one can be chosen"
 kill "$trainer"
 wait "$trainer" 2>/dev/null || true

@@ -78,7 +78,7 @@ TEST_CASE("a report shows the comments on its attempt, and the score lists them 
   CHECK(read_file(after.statements) == read_file(before.statements));
 }
 
-TEST_CASE("each attempt has a folder of its own, and the folders sort by time") {
+TEST_CASE("each attempt has a folder of its own that stays the same in a database, and the folders sort by time") {
   const ResultsFolder folder;
   Attempt attempt = made_attempt("L-07", tiny_exam(0));
   attempt.scenario_file = "/lab/exams/aorta.toml";
@@ -94,6 +94,10 @@ TEST_CASE("each attempt has a folder of its own, and the folders sort by time") 
   CHECK(first == folder / "out/attempts/2026-11-21T18-05-09Z_aorta");
   CHECK(at_once == folder / "out/attempts/2026-11-21T18-05-09Z_aorta-2");
   CHECK(later > at_once);
+  attempt.number = 12;
+  const std::filesystem::path of_a_database = folder / "out/attempts/2026-11-21T18-05-10Z_aorta_12";
+  std::filesystem::create_directories(of_a_database);
+  CHECK(attempt_folder(folder / "out", attempt) == of_a_database);
 }
 
 TEST_CASE("an attempt in no database has no statements, and removes those of another") {
