@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <new>
 #include <set>
@@ -38,7 +39,7 @@ std::string number_in(const NumberRange& range) {
 /// string ends with the line.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
-  const std::string three(3, quote);
+  const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
   const bool many_lines = text.substr(at).starts_with(three);
   for (at += many_lines ? 3 : 1; at < text.size(); ++at) {
     if (quote == '"' && text[at] == '\\')
@@ -54,23 +55,31 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
+/// Which characters line_of_deep_key() looks at.
+constexpr std::array<bool, 256> kMarks = [] {
+  std::array<bool, 256> marks{};
+  for (const unsigned char mark : std::string_view("\"'#.\n=,[]{}")) marks[mark] = true;
+  return marks;
+}();
+
 /// Returns the number, from 1, of the line whose dotted key has more than kMostKeyParts parts; 0 if there is none.
 int line_of_deep_key(std::string_view text) {
   int line = 1, dots = 0;
-  for (std::size_t at = 0; at < text.size();) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
-    std::size_t end = at + 1;
-    if (c == '"' || c == '\'')
-      end = end_of_string(text, at);
-    else if (c == '#')
-      end = std::min(text.find('\n', at), text.size());
-    else if (c == '.')
-      ++dots;
-    else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos)
+    if (!kMarks[static_cast<unsigned char>(c)]) continue;
+    if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_string(text, at);
+      line += int(std::count(text.begin() + std::ptrdiff_t(at), text.begin() + std::ptrdiff_t(end), '\n'));
+      at = end - 1;
+    } else if (c == '#') {
+      at = std::min(text.find('\n', at), text.size()) - 1;
+    } else if (c == '.') {
+      if (++dots >= kMostKeyParts) return line;
+    } else {
       dots = 0;
-    if (dots >= kMostKeyParts) return line;
-    line += int(std::count(text.begin() + std::ptrdiff_t(at), text.begin() + std::ptrdiff_t(end), '\n'));
-    at = end;
+      line += c == '\n';
+    }
   }
   return 0;
 }

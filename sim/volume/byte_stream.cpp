@@ -7,7 +7,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kInputBytes = 1u << 18;
+constexpr std::size_t kInputBytes = 1u << 16;
 
 }  // namespace
 

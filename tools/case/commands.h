@@ -36,15 +36,13 @@ struct RecordedMoment {
 void add_recorded_view(const std::filesystem::path& folder, ReferenceView view, const std::string& pose_file,
                        const RecordedMoment& moment);
 
-/// The look that shows labelled organs, bone by its density, and the skin as glass.
-inline constexpr const char* kLabelledOrgans = "Labelled organs";
 /// The names of the sides, in the order of view::Side.
 inline constexpr std::array<const char*, 6> kSideNames{"front", "back", "right", "left", "head", "feet"};
 
 /// A picture of a patient in 3D.
 struct PatientPicture {
   std::string subject;        ///< as open_subject() takes it
-  std::string look = "Skin";  ///< kLabelledOrgans, the name of a bundled transfer function, or a file of one (.toml)
+  std::string look = "Skin";  ///< view::kSurfaces, the name of a bundled transfer function, or a file of one (.toml)
   std::vector<std::string> structures;  ///< labels of the case whose surfaces are drawn within the CT
   std::string view;  ///< a reference view of the case, whose ultrasound is shown in its place; empty: none
   std::string from;  ///< one of kSideNames; empty: towards the view's plane, else obliquely from the front

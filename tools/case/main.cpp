@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
       ->default_str("the built-in patient");
   draw->add_option("--look", picture.look,
                    "Show this transfer function of assets/transfer_functions by its name, that of a TOML file, or "
-                   "'Labelled organs'")
+                   "'Surfaces'")
       ->type_name("NAME|FILE")
       ->capture_default_str();
   draw->add_option("--structure", picture.structures,

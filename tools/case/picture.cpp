@@ -12,6 +12,7 @@
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
 #include "sim/model/quality.h"
+#include "sim/view/body/tissue_classes.h"
 #include "sim/view/body/transfer_function_file.h"
 #include "sim/view/body/volume_view.h"
 #include "tools/case/commands.h"
@@ -20,14 +21,14 @@
 namespace insonate {
 namespace {
 
-/// The opacity of the skin if a picture shows the labelled organs.
+/// The opacity of the skin if a picture shows surfaces.
 constexpr double kSkin = 0.14;
 
-/// Returns the function of a bundled name or of a file; none for the labelled organs.
+/// Returns the function of a bundled name or of a file; none for the surfaces.
 std::optional<view::TransferFunction> look_named(const std::string& named) {
-  if (named == kLabelledOrgans) return std::nullopt;
+  if (named == view::kSurfaces) return std::nullopt;
   if (std::filesystem::path(named).extension() == ".toml") return view::read_transfer_function(named);
-  std::vector<std::string> names{kLabelledOrgans};
+  std::vector<std::string> names{view::kSurfaces};
   for (const view::TransferFunction& function : view::bundled_transfer_functions()) {
     if (function.name == named) return function;
     names.push_back(function.name);
@@ -64,7 +65,7 @@ void draw_patient(const PatientPicture& picture) {
   const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
   const Case subject = open_subject(picture.subject);
   if (!look && !picture.structures.empty())
-    throw InputError("--structure", "", "all structures are shown with '" + std::string(kLabelledOrgans) + "'",
+    throw InputError("--structure", "", "all structures are shown with '" + std::string(view::kSurfaces) + "'",
                      "choose a look of the CT, such as Bones");
   const ReferenceView* plane_shown = picture.view.empty() ? nullptr : subject.find_view(picture.view);
   if (!picture.view.empty() && !plane_shown) {

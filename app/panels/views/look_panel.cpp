@@ -7,6 +7,7 @@
 
 #include "app/panels/scan/picture_plates.h"
 #include "app/panels/widgets/scroll_area.h"
+#include "sim/view/body/tissue_classes.h"
 
 namespace insonate::ui {
 namespace {
@@ -225,12 +226,12 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
       const std::optional<std::size_t> index = i == 0 ? std::nullopt : std::optional(i - 1);
       const std::string id = "look" + std::to_string(i);
       const bool chosen = look.chosen() == index;
-      std::string name = index ? look.offered()[*index].name : "Labels";
+      std::string name = index ? look.offered()[*index].name : view::kSurfaces;
       if (chosen && look.is_edited()) name += " *";
       if (button(theme, id.c_str(), places[id] = row.take_left(width), name,
                  chosen ? ButtonKind::chosen : ButtonKind::normal, true,
                  index ? "Shows the CT itself with this transfer function"
-                       : "Shows labelled organs, bone, and the skin as glass")) {
+                       : "Shows labelled organs and bone as surfaces, and the skin as glass")) {
         look.choose(index);
         point_.reset();
       }

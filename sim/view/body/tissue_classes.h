@@ -9,6 +9,9 @@
 
 namespace insonate::view {
 
+/// The name of the look that these data give: labelled organs and bone as surfaces, and the skin as glass.
+inline constexpr const char* kSurfaces = "Surfaces";
+
 /// The data of a patient for volume rendering, computed once. Ray casting then costs two fetches per sample, for any
 /// number of labels. Organs get smooth surfaces, which labels alone do not have.
 struct TissueClasses {

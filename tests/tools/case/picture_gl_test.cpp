@@ -44,7 +44,7 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
   CHECK(bright(skin) > 1000);
   CHECK(bright(draw("--look Bones")) == 0);
   CHECK(bright(draw("--look Bones --view front")) > 500);
-  CHECK(bright(draw("--look 'Labelled organs' --from left")) > 500);
+  CHECK(bright(draw("--look Surfaces --from left")) > 500);
   CHECK(bright(draw("--look Bones --structure ball")) > 500);
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
 TEST_CASE("The patient looks as in the documents' pictures") {
   const std::filesystem::path root = INSONATE_SOURCE_FOLDER;
   TemporaryFolder drawn;
-  const std::vector<std::string> names{"structures", "bones", "plane_in_bones", "plane_in_skin", "labels"};
+  const std::vector<std::string> names{"structures", "bones", "plane_in_bones", "plane_in_skin", "surfaces"};
   std::string command = (root / "tools" / "view-pictures").string() + " " +
                         std::filesystem::path(INSONATE_CASE_PROGRAM).parent_path().string() + " " + drawn.path.string();
   for (const std::string& name : names) command += " " + name;
@@ -97,7 +97,7 @@ TEST_CASE("A picture that cannot be drawn is refused") {
   refused("--look Bons " + out, "did you mean 'Bones'");
   refused("--look none.toml " + out, "none.toml");
   refused("--structure bal " + out, "did you mean 'ball'");
-  refused("--look 'Labelled organs' --structure ball " + out, "all structures are shown");
+  refused("--look Surfaces --structure ball " + out, "all structures are shown");
   refused("--view frnt " + out, "did you mean 'front'");
   refused((place.folder.path / "p.jpg").string(), "ends in .png");
 }
