@@ -62,8 +62,8 @@ int make_one(const std::string& study_file, std::uint32_t index, const std::stri
     throw InputError("INDEX", "", "there is no image " + std::to_string(index) + " of " + std::to_string(study.images),
                      "count them from 0");
   refuse_taken(path);
-  std::string device;
-  const DatasetImage image = make_image(study, patients_of(study), index, device);
+  const SingleImage made = make_image(study, patients_of(study), index);
+  const DatasetImage& image = made.image;
   write_folder(path, [&](const std::filesystem::path& folder) {
     write_png(folder / "image.png", image.grey);
     write_png(folder / "label.png", image.truth.label);
@@ -89,7 +89,12 @@ int make_one(const std::string& study_file, std::uint32_t index, const std::stri
     }
     json["settings"] = nlohmann::ordered_json::parse(image.settings);
     json["digest"] = image.digest;
-    json["device"] = device;
+    for (const auto& [name, text] : made.about) {
+      if (name == "options" || name == "labels")
+        json[name] = nlohmann::ordered_json::parse(text);
+      else if (name != "shard" && name != "first_image")
+        json[name] = text;
+    }
     write_file(folder / "truth.json", json.dump(2) + "\n");
   });
   return 0;

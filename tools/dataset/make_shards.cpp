@@ -150,14 +150,12 @@ void make_shards(const Study& study, const std::vector<StudyPatient>& patients, 
   }
 }
 
-DatasetImage make_image(const Study& study, const std::vector<StudyPatient>& patients, std::uint32_t index,
-                        std::string& device) {
+SingleImage make_image(const Study& study, const std::vector<StudyPatient>& patients, std::uint32_t index) {
   const DatasetTissues tissues = dataset_tissues();
   const StudyPatient& patient = patient_of(patients, index / study.shard_images);
   OpenedPatient opened(study, patient, tissues.table);
   PictureMaker pictures;
   pictures.set_patient(patient.of->source, opened.subject, tissues.table, may_have_waves(study));
-  device = pictures.device();
   std::optional<DatasetImage> image;
   const auto take = [&](Shot&& shot, Image<std::uint8_t>&& grey) {
     image = with_truth(std::move(shot), grey, opened.truth);
@@ -166,7 +164,7 @@ DatasetImage make_image(const Study& study, const std::vector<StudyPatient>& pat
     pictures.draw(opened.shots.at(index), take);
     pictures.finish(take);
   });
-  return std::move(*image);
+  return {std::move(*image), about_shard(study, opened, tissues, pictures.device(), index / study.shard_images)};
 }
 
 }  // namespace insonate

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/dataset/dataset_folder.h"
@@ -28,9 +29,13 @@ struct MadeShard {
 void make_shards(const Study& study, const std::vector<StudyPatient>& patients, const DatasetFolder& folder,
                  const std::vector<std::uint32_t>& shards, const std::function<void(const MadeShard&)>& made);
 
+/// An image that was made alone, and the attributes of its shard.
+struct SingleImage {
+  DatasetImage image;
+  std::vector<std::pair<std::string, std::string>> about;  ///< name and text; `options` and `labels` are JSON
+};
+
 /// Makes one image of a study again, the same as in its shard. Throws InputError.
-/// @param device  receives the description of the device
-DatasetImage make_image(const Study& study, const std::vector<StudyPatient>& patients, std::uint32_t index,
-                        std::string& device);
+SingleImage make_image(const Study& study, const std::vector<StudyPatient>& patients, std::uint32_t index);
 
 }  // namespace insonate

@@ -7,6 +7,7 @@
 #include "sim/volume/open_case.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/docs.h"
 
 namespace insonate::python {
 namespace {
@@ -39,17 +40,18 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
 }  // namespace
 
 void bind_cases(py::module_& module) {
-  py::class_<ReferenceView>(module, "View")
+  py::class_<ReferenceView>(module, "View", doc("View"))
       .def_readonly("name", &ReferenceView::name)
       .def_readonly("title", &ReferenceView::title)
       .def_readonly("probe", &ReferenceView::probe)
       .def_readonly("depth_mm", &ReferenceView::depth_mm)
       .def_readonly("landmarks", &ReferenceView::landmarks)
       .def_readonly("targets", &ReferenceView::targets)
-      .def_property_readonly("pose",
-                             [](const ReferenceView& view) { return array_of(view.patient_from_probe.matrix()); })
+      .def_property_readonly(
+          "pose", [](const ReferenceView& view) { return array_of(view.patient_from_probe.matrix()); },
+          doc("View.pose"))
       .def("__repr__", [](const ReferenceView& view) { return "<insonate.View " + view.name + ">"; });
-  py::class_<HeldCase, std::shared_ptr<HeldCase>>(module, "Case")
+  py::class_<HeldCase, std::shared_ptr<HeldCase>>(module, "Case", doc("Case"))
       .def_property_readonly("name", [](const HeldCase& held) { return held.subject.name; })
       .def_property_readonly("views",
                              [](const HeldCase& held) {
@@ -64,31 +66,38 @@ void bind_cases(py::module_& module) {
                                  names[py::int_(label.value)] = label.name;
                                return names;
                              })
-      .def_property_readonly("landmarks",
-                             [](const HeldCase& held) {
-                               py::dict landmarks;
-                               for (const Landmark& landmark : held.subject.landmarks) {
-                                 const glm::dvec3& p = landmark.position;
-                                 landmarks[py::str(landmark.name)] = py::make_tuple(p.x, p.y, p.z);
-                               }
-                               return landmarks;
-                             })
-      .def_property_readonly("ct",
-                             [](const std::shared_ptr<HeldCase>& held) {
-                               const Volume<std::int16_t>& ct = held->subject.ct;
-                               return shared_array(ct.voxels, shape_of(ct.grid), py::cast(held));
-                             })
-      .def_property_readonly("labels",
-                             [](const std::shared_ptr<HeldCase>& held) -> py::object {
-                               const Volume<std::uint8_t>& labels = held->subject.labels;
-                               if (labels.empty()) return py::none();
-                               return shared_array(labels.voxels, shape_of(labels.grid), py::cast(held));
-                             })
-      .def_property_readonly("patient_from_voxel",
-                             [](const HeldCase& held) { return array_of(held.subject.ct.grid.matrix()); })
+      .def_property_readonly(
+          "landmarks",
+          [](const HeldCase& held) {
+            py::dict landmarks;
+            for (const Landmark& landmark : held.subject.landmarks) {
+              const glm::dvec3& p = landmark.position;
+              landmarks[py::str(landmark.name)] = py::make_tuple(p.x, p.y, p.z);
+            }
+            return landmarks;
+          },
+          doc("Case.landmarks"))
+      .def_property_readonly(
+          "ct",
+          [](const std::shared_ptr<HeldCase>& held) {
+            const Volume<std::int16_t>& ct = held->subject.ct;
+            return shared_array(ct.voxels, shape_of(ct.grid), py::cast(held));
+          },
+          doc("Case.ct"))
+      .def_property_readonly(
+          "labels",
+          [](const std::shared_ptr<HeldCase>& held) -> py::object {
+            const Volume<std::uint8_t>& labels = held->subject.labels;
+            if (labels.empty()) return py::none();
+            return shared_array(labels.voxels, shape_of(labels.grid), py::cast(held));
+          },
+          doc("Case.labels"))
+      .def_property_readonly(
+          "patient_from_voxel", [](const HeldCase& held) { return array_of(held.subject.ct.grid.matrix()); },
+          doc("Case.patient_from_voxel"))
       .def("__repr__", [](const HeldCase& held) { return "<insonate.Case " + held.subject.name + ">"; });
-  module.def("open_case", &opened, py::arg("path"));
-  module.def("phantom", &made_phantom);
+  module.def("open_case", &opened, py::arg("path"), doc("open_case"));
+  module.def("phantom", &made_phantom, doc("phantom"));
 }
 
 }  // namespace insonate::python

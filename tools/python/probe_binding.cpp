@@ -4,6 +4,7 @@
 #include "sim/core/suggest.h"
 #include "sim/imaging/view_limits.h"
 #include "tools/python/bindings.h"
+#include "tools/python/docs.h"
 
 namespace insonate::python {
 namespace {
@@ -50,19 +51,19 @@ Probe probe_of(const py::object& given) {
 }
 
 void bind_probes(py::module_& module) {
-  py::class_<Probe>(module, "Probe")
+  py::class_<Probe>(module, "Probe", doc("Probe"))
       .def(py::init(&made), py::arg("like"))
       .def_readonly("name", &Probe::name)
       .def_property_readonly("kind", [](const Probe& probe) { return kKinds.at(std::size_t(probe.kind)); })
       .def_readonly("radius_mm", &Probe::radius_mm)
       .def_readonly("field_of_view_deg", &Probe::field_of_view_deg)
       .def_readonly("width_mm", &Probe::width_mm)
-      .def_readonly("aperture_mm", &Probe::aperture_mm)
+      .def_readonly("aperture_mm", &Probe::aperture_mm, doc("Probe.aperture_mm"))
       .def_readonly("frequency_mhz", &Probe::frequency_mhz)
-      .def_readonly("depth_mm", &Probe::depth_mm)
+      .def_readonly("depth_mm", &Probe::depth_mm, doc("Probe.depth_mm"))
       .def_readonly("lines", &Probe::lines)
       .def("__repr__", [](const Probe& probe) { return "<insonate.Probe " + probe.name + ">"; });
-  module.def("probe_names", &probe_names);
+  module.def("probe_names", &probe_names, doc("probe_names"));
 }
 
 }  // namespace insonate::python

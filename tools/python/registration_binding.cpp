@@ -14,6 +14,7 @@
 #include "sim/volume/open_case.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/docs.h"
 #include "tools/python/graphics_thread.h"
 
 namespace insonate::python {
@@ -71,18 +72,18 @@ private:
 }  // namespace
 
 void bind_registration(py::module_& module) {
-  py::class_<RegistrationBinding>(module, "Registration")
+  py::class_<RegistrationBinding>(module, "Registration", doc("Registration"))
       .def(py::init([](const std::shared_ptr<HeldCase>& held, const Floats& ultrasound, const py::object& probe,
                        std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings,
                        std::optional<int> patch) {
              return std::make_unique<RegistrationBinding>(held, ultrasound, probe, depth_mm, settings, patch);
            }),
            py::arg("case").none(false), py::arg("ultrasound"), py::arg("probe"), py::arg("depth_mm") = py::none(),
-           py::arg("settings") = py::none(), py::arg("patch") = py::none())
+           py::arg("settings") = py::none(), py::arg("patch") = py::none(), doc("Registration.__init__"))
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](RegistrationBinding& self, const py::args&) { self.close(); })
-      .def("close", &RegistrationBinding::close)
-      .def("similarity", &RegistrationBinding::similarity, py::arg("poses"));
+      .def("close", &RegistrationBinding::close, doc("Registration.close"))
+      .def("similarity", &RegistrationBinding::similarity, py::arg("poses"), doc("Registration.similarity"));
 }
 
 }  // namespace insonate::python

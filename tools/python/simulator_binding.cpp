@@ -15,6 +15,7 @@
 #include "sim/volume/open_case.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/docs.h"
 #include "tools/python/graphics_thread.h"
 
 namespace insonate::python {
@@ -228,23 +229,26 @@ private:
 }  // namespace
 
 void bind_simulator(py::module_& module) {
-  py::class_<SimulatorBinding>(module, "Simulator")
+  py::class_<SimulatorBinding>(module, "Simulator", doc("Simulator"))
       .def(py::init([](const std::shared_ptr<HeldCase>& held) { return std::make_unique<SimulatorBinding>(held); }),
            py::arg("case").none(false))
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](SimulatorBinding& self, const py::args&) { self.close(); })
-      .def("close", &SimulatorBinding::close)
-      .def("set_probe", &SimulatorBinding::set_probe, py::arg("probe"), py::arg("depth_mm") = py::none())
+      .def("close", &SimulatorBinding::close, doc("Simulator.close"))
+      .def("set_probe", &SimulatorBinding::set_probe, py::arg("probe"), py::arg("depth_mm") = py::none(),
+           doc("Simulator.set_probe"))
       .def_property_readonly("probe", &SimulatorBinding::probe)
       .def_property_readonly("depth_mm", &SimulatorBinding::depth_mm)
-      .def_property_readonly("settings", &SimulatorBinding::settings)
-      .def("set", &SimulatorBinding::set)
-      .def_property("pose", &SimulatorBinding::pose, &SimulatorBinding::set_pose)
-      .def("image", &SimulatorBinding::image)
-      .def("images", &SimulatorBinding::images, py::arg("poses"), py::kw_only(), py::arg("labels") = false)
-      .def("truth", &SimulatorBinding::truth)
-      .def("stages", &SimulatorBinding::stages)
-      .def_property_readonly("patient_from_pixel", &SimulatorBinding::patient_from_pixel)
+      .def_property_readonly("settings", &SimulatorBinding::settings, doc("Simulator.settings"))
+      .def("set", &SimulatorBinding::set, doc("Simulator.set"))
+      .def_property("pose", &SimulatorBinding::pose, &SimulatorBinding::set_pose, doc("Simulator.pose"))
+      .def("image", &SimulatorBinding::image, doc("Simulator.image"))
+      .def("images", &SimulatorBinding::images, py::arg("poses"), py::kw_only(), py::arg("labels") = false,
+           doc("Simulator.images"))
+      .def("truth", &SimulatorBinding::truth, doc("Simulator.truth"))
+      .def("stages", &SimulatorBinding::stages, doc("Simulator.stages"))
+      .def_property_readonly("patient_from_pixel", &SimulatorBinding::patient_from_pixel,
+                             doc("Simulator.patient_from_pixel"))
       .def_property_readonly("device", &SimulatorBinding::device);
 }
 

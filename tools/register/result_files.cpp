@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "sim/core/text.h"
@@ -181,6 +182,9 @@ std::string registration_json(const RegistrationReport& report) {
   json["coordinates"] = "LPS, mm; matrices by rows";
   json["ct_from_sweep"] = rows_of(found.ct_from_sweep);
   json["sweep_from_ct"] = rows_of(glm::inverse(found.ct_from_sweep));
+  if (report.settings.freedom == Freedom::affine)
+    json["ct_from_sweep_rigid"] =
+        rows_of(found.motion.at(std::span(found.at).first(std::min(found.at.size(), parameters_of(Freedom::rigid)))));
   json["ct_from_sweep_at_start"] = rows_of(found.motion.ct_from_sweep);
   json["measure"] = std::string(to_string(report.settings.measure));
   json["similarity_before"] = found.similarity_before;

@@ -1,12 +1,14 @@
 #include "tools/register/sweep_options.h"
 
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/files/files.h"
 #include "sim/files/png.h"
 #include "sim/probe/probe.h"
 #include "tools/cli/pose_file.h"
@@ -14,6 +16,11 @@
 #include "tools/register/start_transform.h"
 
 namespace insonate {
+namespace {
+
+constexpr std::size_t kLargestStart = 1u << 24;
+
+}  // namespace
 
 SweepInput SweepOptions::input() const {
   SweepInput input;
@@ -43,7 +50,12 @@ SweepInput SweepOptions::input() const {
 }
 
 glm::dmat4 SweepOptions::start() const {
-  if (!start_file.empty()) return read_pose(start_file, "ct_from_sweep").matrix();
+  if (!start_file.empty()) {
+    // An affine result holds its rigid part too.
+    const auto json = nlohmann::json::parse(read_file(start_file, kLargestStart), nullptr, false);
+    const bool is_affine = json.is_object() && json.contains("ct_from_sweep_rigid");
+    return read_pose(start_file, is_affine ? "ct_from_sweep_rigid" : "ct_from_sweep").matrix();
+  }
   if (!landmarks_file.empty()) return start_from_landmarks(landmarks_file);
   return glm::dmat4(1.0);
 }

@@ -31,6 +31,18 @@ std::vector<std::uint8_t> map_of(const fs::path& shard, const char* name) {
   return pixels;
 }
 
+std::string shard_attribute(const fs::path& shard, const char* name) {
+  const hid_t file = H5Fopen(shard.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT), type = H5Aget_type(attribute);
+  std::string text(H5Tget_size(type), '\0');
+  REQUIRE(H5Aread(attribute, type, text.data()) >= 0);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  H5Fclose(file);
+  return text.substr(0, text.find('\0'));
+}
+
 std::vector<std::uint8_t> png_pixels(const fs::path& file) {
   png_image image;
   std::memset(&image, 0, sizeof image);
@@ -121,6 +133,9 @@ TEST_CASE("any image can be made again alone, to the bit") {
     CHECK(truth.at("settings").at("samples") == 128);
     CHECK(truth.at("patient_from_pixel").size() == 4);
     CHECK(truth.at("skin_mm").size() == (truth.at("probe") == "phased" ? 48 : 64));
+    CHECK(truth.at("patient") == shard_attribute(shard, "patient"));
+    CHECK(truth.at("licence") == shard_attribute(shard, "licence"));
+    CHECK(truth.at("labels") == nlohmann::json::parse(shard_attribute(shard, "labels")));
   }
   CHECK(work.run("image study.toml 21 image-21").code == 2);  // the folder is taken
   CHECK(work.run("image study.toml 22 image-22").errors.find("there is no image 22 of 22; count them from 0") !=

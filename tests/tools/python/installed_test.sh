@@ -41,4 +41,18 @@ for name in set(stubs) - described_only - {"InputError"}:
     if isinstance(thing, type):
         own = {part for part in vars(thing) if not part.startswith("_") or part in ("__enter__", "__exit__")}
         assert own == stubs[name] - {"__init__"}, (name, own ^ (stubs[name] - {"__init__"}))
+
+
+# help() says what the stubs say.
+def check_docs(body, thing):
+    for part in body:
+        if isinstance(part, (ast.ClassDef, ast.FunctionDef)) and part.name not in described_only | {"InputError"}:
+            its = getattr(thing, part.name)
+            text = ast.get_docstring(part)
+            assert not text or text in its.__doc__, (part.name, its.__doc__)
+            if isinstance(part, ast.ClassDef):
+                check_docs(part.body, its)
+
+
+check_docs(tree.body, insonate)
 PY

@@ -286,6 +286,13 @@ TEST_CASE("a recording of a body that has breathed is registered with a deformat
         1 + json["evaluations"].get<std::size_t>() + free_form["evaluations"].get<std::size_t>());
   CHECK(page.find("Both, deformed") != std::string::npos);
   CHECK(std::distance(fs::directory_iterator(out / "pictures"), {}) == 28);
+
+  // The rigid part of such a result is a start.
+  const ProgramOutcome again = place.run("--start " + (out / "registration.json").string() + " --slices 8 " +
+                                             place.in("sweep.igs.mha") + " " + place.in("again"),
+                                         "--search-mm 0 --search-deg 0");
+  INFO(again.errors);
+  CHECK(again.code == 0);
 }
 
 TEST_CASE("a registration that does not converge exits with 3 and says so in every file") {

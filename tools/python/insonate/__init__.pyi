@@ -135,7 +135,8 @@ class Simulator:
     def set(self, **settings: Any) -> None:
         """Sets settings by name: set(gain_db=3, image_width=512). If one cannot be used, all stay. Raises InputError."""
     @property
-    def pose(self) -> NDArray[np.float64]: ...
+    def pose(self) -> NDArray[np.float64]:
+        """patient_from_probe, 4 x 4, in mm (LPS). Any rigid matrix can be set. Raises InputError for another one."""
     @pose.setter
     def pose(self, patient_from_probe: ArrayLike) -> None: ...
     def image(self) -> NDArray[np.uint8]:
@@ -143,7 +144,8 @@ class Simulator:
     @overload
     def images(self, poses: ArrayLike, *, labels: Literal[False] = False) -> NDArray[np.uint8]: ...
     @overload
-    def images(self, poses: ArrayLike, *, labels: Literal[True]) -> LabelledImages: ...
+    def images(self, poses: ArrayLike, *, labels: Literal[True]) -> LabelledImages:
+        """The pictures at N poses (N x 4 x 4), N x rows x columns; with labels=True a dict of them and their truth."""
     def truth(self) -> Truth:
         """What is known of the picture: per pixel the label, the label where the sound arrives, and the reach (0 outside
         the fan, 1 in shadow, 2 where the sound arrives); per scan line the distance to the skin in mm, negative where
@@ -168,6 +170,7 @@ class Registration:
     def __enter__(self) -> Registration: ...
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
                  trace: TracebackType | None) -> None: ...
-    def close(self) -> None: ...
+    def close(self) -> None:
+        """Frees the graphics memory. Comparing then raises RuntimeError."""
     def similarity(self, poses: ArrayLike) -> NDArray[np.float32]:
         """LC2 at each of N poses, 0 to 1."""
