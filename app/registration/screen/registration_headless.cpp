@@ -31,11 +31,17 @@ int run_registration_headless(const RegistrationOptions& options) {
   LiveSession session(request, subject, volume);
   const double end_s = steady_now_s() + (options.seconds > 0 ? options.seconds : kUsual_s);
   double written_s = -1;
+  std::string waits_for;
   for (double now_s = steady_now_s(); now_s < end_s; now_s = steady_now_s()) {
     session.update(now_s);
     if (!options.state_file.empty() && now_s - written_s > kStateEvery_s) {
       written_s = now_s;
       write_registration_state(options.state_file, session);
+    }
+    // A server that is not there may still be started: this goes on, but says what it waits for.
+    if (const std::string problem = session.problem(); session.stream().received() == 0 && problem != waits_for) {
+      waits_for = problem;
+      if (!problem.empty()) std::fprintf(stderr, "insonate: waiting: %s\n", problem.c_str());
     }
     const LiveRegistrar::State state = session.state();
     if (state.last && state.last->found.converged()) break;
