@@ -140,12 +140,14 @@ bool LiveRegistrar::begin_round(Task& task) {
     }
     task.sweep = window_.chosen(std::size_t(settings_.slices));
     state_.in_use = task.sweep.images.size();
-    state_.spread_mm = window_.spread_mm(task.sweep);
-    if (state_.in_use < kLeastImages || state_.spread_mm < kLeastSpread_mm) {
+    state_.spread_mm = spread_mm(task.sweep);
+    const bool searches = searches_ && !has_wide_;
+    // A search that nobody has asked for is worth its time with all its images alone.
+    if (state_.in_use < (searches ? std::size_t(settings_.slices) : kLeastImages) ||
+        state_.spread_mm < (searches ? kLeastSpread_mm : kLeastApart_mm)) {
       state_.work = Work::waiting;
       continue;
     }
-    const bool searches = searches_ && !has_wide_;
     task.wide = std::exchange(wants_wide_, false) || searches;
     task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.slices);
     task.from = (task.wide || is_settled_) && !searches ? state_.ct_from_sweep : start_;

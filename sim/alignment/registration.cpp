@@ -145,9 +145,11 @@ struct Run {
   }
 
   // Finds out how far the result can be trusted.
-  void judge(const Optimum& end, const Uncertainty& found) {
+  void judge(const Optimum& end, const Uncertainty& found, const TrackedSweep& compared) {
     const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
     if (end.value <= 0) return doubt("the images show nothing of the CT");
+    if (spread_mm(compared) < kLeastSpread_mm)
+      doubt("the images lie too close together to tell one place from another");
     if (!end.within_tolerance) doubt("the search used up its evaluations");
     const double mm = glm::length(glm::dvec3(end.at[0], end.at[1], end.at[2])),
                  deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);
@@ -271,7 +273,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   result.at = end.at;
   result.similarity_after = end.value;
   result.ct_from_sweep = result.motion.at(result.at);
-  run.judge(end, uncertainty);
+  run.judge(end, uncertainty, compared_);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -45,6 +45,10 @@ struct RegistrationSettings {
   std::function<void()> between_calls;  ///< called before each; may wait, and ends the search by an exception
 };
 
+/// Images that lie closer together than this, by spread_mm(), can be most similar at a wrong place, and no measure of
+/// the similarity shows it. So no registration of them counts as converged.
+inline constexpr double kLeastSpread_mm = 25;
+
 /// One evaluation of the similarity.
 struct Evaluation {
   int stage = 0;  ///< index into kStages

@@ -42,11 +42,4 @@ TrackedSweep SweepWindow::chosen(std::size_t count) const {
   return sweep;
 }
 
-double SweepWindow::spread_mm(const TrackedSweep& sweep) const {
-  double most = 0;
-  for (const SweepImage& a : sweep.images)
-    for (const SweepImage& b : sweep.images) most = std::max(most, apart_mm(a.sweep_from_probe, b.sweep_from_probe));
-  return most;
-}
-
 }  // namespace insonate

@@ -30,8 +30,6 @@ public:
   /// Returns up to `count` images: the newest, and then always the one that lies farthest from those chosen. Equal
   /// windows give equal choices.
   TrackedSweep chosen(std::size_t count) const;
-  /// Returns how far apart the images of a choice lie at most: the largest root mean square distance of two fans, mm.
-  double spread_mm(const TrackedSweep& sweep) const;
 
 private:
   double apart_mm(const Pose& a, const Pose& b) const;

@@ -29,6 +29,15 @@ std::vector<glm::dvec3> target_points(const TrackedSweep& sweep) {
   return points;
 }
 
+double spread_mm(const TrackedSweep& sweep) {
+  const std::vector<glm::dvec3> fan = target_points({Probe(sweep.probe), sweep.depth_mm, std::vector<SweepImage>(1)});
+  double most = 0;
+  for (const SweepImage& a : sweep.images)
+    for (const SweepImage& b : sweep.images)
+      most = std::max(most, target_error_mm(fan, a.sweep_from_probe.matrix(), b.sweep_from_probe.matrix()));
+  return most;
+}
+
 double target_error_mm(const std::vector<glm::dvec3>& points, const glm::dmat4& one, const glm::dmat4& other) {
   double squares = 0;
   for (const glm::dvec3& point : points) {

@@ -29,6 +29,9 @@ struct TrackedSweep {
 /// depth and from edge to edge.
 std::vector<glm::dvec3> target_points(const TrackedSweep& sweep);
 
+/// Returns how far apart the images of a sweep lie at most: the largest root mean square distance of two fans, mm.
+double spread_mm(const TrackedSweep& sweep);
+
 /// Returns the root mean square distance, mm, between what two maps make of points: the target registration error if
 /// one of them is the truth and the points are target_points().
 double target_error_mm(const std::vector<glm::dvec3>& points, const glm::dmat4& one, const glm::dmat4& other);

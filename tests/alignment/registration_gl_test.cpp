@@ -98,11 +98,15 @@ TEST_CASE("a narrow search around a place that is right does not doubt it for wh
 }
 
 TEST_CASE("equal registrations give equal results") {
-  const Fixture f;
+  Fixture f;
+  f.settings.freedom = Freedom::affine;  // which begins with a rigid one
   const SweepRegistration one = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3)),
                           other = SweepRegistrar(f.body, f.sweep, f.settings).from(f.start({2, 0, 1}, 3));
   CHECK(one.at == other.at);
   CHECK(one.evaluations.size() == other.evaluations.size());
+  CHECK(one.doubts == other.doubts);
+  CHECK(one.runner_up == other.runner_up);
+  CHECK(one.elsewhere == other.elsewhere);
 }
 
 TEST_CASE("an affine registration finds a stretch that a rigid one cannot") {
@@ -121,6 +125,18 @@ TEST_CASE("an affine registration finds a stretch that a rigid one cannot") {
                           without = SweepRegistrar(f.body, stretched, rigid).from(glm::dmat4(1.0));
   CHECK(with.at.size() == 12);
   CHECK(with.similarity_after > without.similarity_after);
+}
+
+TEST_CASE("images that lie close together do not converge, even at the right place") {
+  Fixture f;
+  f.settings.search_mm = f.settings.search_deg = 0;
+  TrackedSweep narrow = f.sweep;
+  narrow.images.resize(4);
+  CHECK(spread_mm(f.sweep) > kLeastSpread_mm);
+  CHECK(spread_mm(narrow) < kLeastSpread_mm);
+  CHECK(SweepRegistrar(f.body, f.sweep, f.settings).from(glm::dmat4(1.0)).converged());
+  const SweepRegistration found = SweepRegistrar(f.body, narrow, f.settings).from(glm::dmat4(1.0));
+  CHECK(std::ranges::count(found.doubts, "the images lie too close together to tell one place from another") == 1);
 }
 
 TEST_CASE("images of noise do not converge, however far is searched") {

@@ -45,7 +45,7 @@ TEST_CASE("the newest image and the farthest ones are chosen, and old ones are f
   // Then the middle, and the middles of both halves.
   CHECK(z(2) == Approx((z(0) + z(1)) / 2).margin(1.01));
   CHECK(std::abs(z(3) - z(4)) == Approx((z(0) - z(1)) / 2).margin(3));
-  CHECK(images.spread_mm(sweep) == Approx(z(0) - z(1)));
+  CHECK(spread_mm(sweep) == Approx(z(0) - z(1)));
 }
 
 TEST_CASE("an image is chosen once, however many are asked for") {

@@ -10,6 +10,7 @@
 #include "app/registration/screen/registration_state.h"
 #include "devices/live/steady_clock.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/tissue/tissue.h"
 #include "tools/cli/subject.h"
@@ -56,8 +57,10 @@ int run_registration_headless(const RegistrationOptions& options) {
     if (session.stream().received() == 0)
       throw InputError(options.tracker, "", "no image has come from it", "start the server, or give it more --seconds");
     throw InputError(options.tracker, "",
-                     "its images do not suffice: " + std::to_string(state.in_use) + " of " +
-                         std::to_string(LiveRegistrar::kLeastImages) + " lie apart from each other",
+                     "its images do not suffice: " + std::to_string(state.in_use) + " within " +
+                         formatted("%.0f", state.spread_mm) + " mm; needed are " +
+                         std::to_string(request.settings.slices) + " within " + formatted("%.0f", kLeastSpread_mm) +
+                         " mm or more",
                      "move the probe, or give it more --seconds");
   }
   const std::filesystem::path saved = session.save(options.out);

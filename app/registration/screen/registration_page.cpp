@@ -20,7 +20,7 @@ std::string work_text(const LiveSession& session, const LiveRegistrar::State& st
       if (session.shown() == 0) return "Waiting for images";
       return "Move the probe: " + std::to_string(state.in_use) + " images within " +
              formatted("%.0f", state.spread_mm) + " mm; needed are " + std::to_string(LiveRegistrar::kLeastImages) +
-             " within " + formatted("%.0f", LiveRegistrar::kLeastSpread_mm) + " mm or more";
+             " within " + formatted("%.0f", LiveRegistrar::kLeastApart_mm) + " mm or more";
     case Work::preparing:
       return "Preparing shaders and volumes";
     case Work::refining:

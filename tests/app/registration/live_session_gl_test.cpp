@@ -212,8 +212,13 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
     registrar.add(place_image(image, scan.tracker_from_probe[at], scan.probe_from_pixel, input));
   };
   registrar.refine(false);
-  for (std::size_t n = 0; n < 7; ++n) add(n, 0.2);
+  const auto enough = std::size_t(settings.slices);
+  // Of few images, or those of the scan's beginning, none is worth a search.
+  for (std::size_t n = 0; n < enough; ++n) add(n, 0.2);
   registrar.refine(true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK(registrar.state().work == LiveRegistrar::Work::waiting);
+  for (std::size_t n = 0; n < enough; ++n) add(n * (scan.images.size() - 1) / (enough - 1), 0.2);
   wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
   REQUIRE_FALSE(registrar.state().last->found.converged());
   // As many as it keeps, so that none of the first is left.
