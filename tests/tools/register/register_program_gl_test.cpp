@@ -229,12 +229,12 @@ TEST_CASE("a volume of a sweep is registered by the probe and the planes that it
 
 TEST_CASE("a clip of DICOM ultrasound with its poses is registered inside a label map") {
   const Workplace place;
-  // All but the first images of the sweep, which slides along z from -8 to 8 mm before the shift.
+  // All but the first image of the sweep, which slides along z from -8 to 8 mm before the shift.
   Volume<std::uint8_t> labels{{{61, 61, 61}, glm::dvec3(3), {-90, -60, -150}, glm::dmat3(1)}, {}};
   labels.voxels.assign(labels.grid.count(), 0);
   for (int k = 0; k < 61; ++k)
     for (int j = 0; j < 61; ++j)
-      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z > -4;
+      for (int i = 0; i < 61; ++i) labels.at({i, j, k}) = labels.grid.patient_from_index(glm::dvec3(i, j, k)).z > -7.5;
   write_labels(place.folder.path / "inside.nrrd", labels);
   const ProgramOutcome outcome =
       run_program(INSONATE_REGISTER_PROGRAM " --ct " + place.in("ct.nrrd") + " --search-mm 12 --search-deg 8 --poses " +
