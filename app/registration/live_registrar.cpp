@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <optional>
@@ -142,8 +143,8 @@ bool LiveRegistrar::begin_round(Task& task) {
     state_.in_use = task.sweep.images.size();
     state_.spread_mm = spread_mm(task.sweep);
     const bool searches = searches_ && !has_wide_;
-    // A search that nobody has asked for is worth its time with all its images alone.
-    if (state_.in_use < (searches ? std::size_t(settings_.slices) : kLeastImages) ||
+    // A search that nobody has asked for takes its time, and few images may be most similar at a wrong place.
+    if (state_.in_use < (searches ? std::min(std::size_t(settings_.slices), kImagesToSearch) : kLeastImages) ||
         state_.spread_mm < (searches ? kLeastSpread_mm : kLeastApart_mm)) {
       state_.work = Work::waiting;
       continue;
@@ -187,6 +188,8 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
     found.doubts.emplace_back("no wide search has looked for other places");
   } else if (target_error_mm(targets, found.ct_from_sweep, confirmed_) > kSamePlace_mm) {
     found.doubts.emplace_back("it has left the place that the wide search found");
+  } else {
+    std::erase(found.doubts, kTooClose);  // the wide search has told the place from others
   }
   if (has_wide_ && found.converged()) confirmed_ = found.ct_from_sweep;
   is_settled_ |= task.wide || task.settles;

@@ -31,7 +31,7 @@ struct LiveRound {
 /// other places too; only one that converges makes the estimate count as converged. Until there are as many images as a
 /// round takes, each round begins at the start: what few images find may be a wrong place that no later round leaves.
 /// For the same reason the first round with all its images looks around the start. Where nobody can ask for a wide
-/// search, each round is one, around the start, until one has converged; it waits for all its images.
+/// search, each round is one, around the start, until one has converged; it waits for images that can tell.
 ///
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
@@ -43,6 +43,8 @@ class LiveRegistrar {
 public:
   static constexpr std::size_t kLeastImages = 6;  ///< of a round
   static constexpr double kLeastApart_mm = 5;     ///< least spread_mm() of a round's images
+  static constexpr std::size_t kImagesToSearch =
+      20;  ///< of a wide search that nobody has asked for, if it takes as many
 
   enum class Work {
     waiting,    ///< for images, or for the probe to move

@@ -148,8 +148,7 @@ struct Run {
   void judge(const Optimum& end, const Uncertainty& found, const TrackedSweep& compared) {
     const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
     if (end.value <= 0) return doubt("the images show nothing of the CT");
-    if (spread_mm(compared) < kLeastSpread_mm)
-      doubt("the images lie too close together to tell one place from another");
+    if (spread_mm(compared) < kLeastSpread_mm) doubt(kTooClose);
     if (!end.within_tolerance) doubt("the search used up its evaluations");
     const double mm = glm::length(glm::dvec3(end.at[0], end.at[1], end.at[2])),
                  deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);

@@ -48,6 +48,8 @@ struct RegistrationSettings {
 /// Images that lie closer together than this, by spread_mm(), can be most similar at a wrong place, and no measure of
 /// the similarity shows it. So no registration of them counts as converged.
 inline constexpr double kLeastSpread_mm = 25;
+inline constexpr const char* kTooClose =
+    "the images lie too close together to tell one place from another";  ///< a doubt
 
 /// One evaluation of the similarity.
 struct Evaluation {

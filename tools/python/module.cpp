@@ -9,6 +9,7 @@
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
 #include "tools/python/bindings.h"
+#include "tools/python/docs.h"
 
 namespace insonate::python {
 namespace {
@@ -40,7 +41,8 @@ PYBIND11_MODULE(_insonate, module) {
   using namespace insonate::python;
   find_assets();
   module.attr("__version__") = INSONATE_VERSION;
-  pybind11::register_exception<insonate::InputError>(module, "InputError", PyExc_ValueError);
+  pybind11::register_exception<insonate::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
+      doc("InputError");
   bind_probes(module);
   bind_cases(module);
   bind_simulator(module);

@@ -1,5 +1,6 @@
 #include "app/registration/screen/registration_headless.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -54,13 +55,15 @@ int run_registration_headless(const RegistrationOptions& options) {
   if (!state.last) {
     const std::string problem = session.problem();
     if (!problem.empty()) throw InputError(problem);
+    if (state.work == LiveRegistrar::Work::preparing || state.work == LiveRegistrar::Work::searching)
+      throw InputError(options.tracker, "", "the first search had not ended", "give it more --seconds");
     if (session.stream().received() == 0)
       throw InputError(options.tracker, "", "no image has come from it", "start the server, or give it more --seconds");
     throw InputError(options.tracker, "",
                      "its images do not suffice: " + std::to_string(state.in_use) + " within " +
                          formatted("%.0f", state.spread_mm) + " mm; needed are " +
-                         std::to_string(request.settings.slices) + " within " + formatted("%.0f", kLeastSpread_mm) +
-                         " mm or more",
+                         std::to_string(std::min(request.settings.slices, int(LiveRegistrar::kImagesToSearch))) +
+                         ", of which two lie " + formatted("%.0f", kLeastSpread_mm) + " mm apart",
                      "move the probe, or give it more --seconds");
   }
   const std::filesystem::path saved = session.save(options.out);
