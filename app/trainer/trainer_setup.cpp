@@ -158,7 +158,6 @@ void Trainer::end_setup() {
   const std::string title = setup()->title_of(missing);
   const bool is_own_mode = options_.mode == Mode::setup, from_start_page = given_.mode != Mode::setup;
   if (is_own_mode && (from_start_page || !missing.empty())) {
-    given_.mode = Mode::practice;
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
     return;
