@@ -25,8 +25,8 @@ struct StructureChoice {
   bool shown = false;
 };
 
-/// How the patient looks in the 3D view: with labelled organs, or as the CT through a transfer function, which a person
-/// chooses and edits. The class stores the look per patient, and shows the patient so again.
+/// How the patient looks in the 3D view: with surfaces (view::kSurfaces), or as the CT through a transfer function,
+/// which a person chooses and edits. The class stores the look per patient, and shows the patient so again.
 class PatientLook {
 public:
   /// Takes the bundled functions. Throws InputError if one cannot be read.
@@ -38,14 +38,14 @@ public:
 
   /// Returns the functions to choose from.
   const std::vector<view::TransferFunction>& offered() const { return offered_; }
-  /// Returns the index of the chosen function; none for labelled organs.
+  /// Returns the index of the chosen function; none for surfaces.
   const std::optional<std::size_t>& chosen() const { return chosen_; }
-  /// Chooses a function as it is offered, without edits; none for labelled organs.
+  /// Chooses a function as it is offered, without edits; none for surfaces.
   void choose(const std::optional<std::size_t>& index);
   /// Takes a function from elsewhere, such as a file that was opened. It replaces an offered one of its name.
   void take(const view::TransferFunction& function);
 
-  /// Returns what is shown: the chosen function with its edits; none for labelled organs.
+  /// Returns what is shown: the chosen function with its edits; none for surfaces.
   const std::optional<view::TransferFunction>& shown() const { return shown_; }
   /// Returns whether the shown function differs from the chosen one.
   bool is_edited() const { return shown_ && *shown_ != offered_[*chosen_]; }
@@ -71,7 +71,7 @@ public:
   /// std::logic_error without a folder.
   std::filesystem::path save();
 
-  /// Shows a patient as they were left the last time; with labelled organs if that is unknown or not readable.
+  /// Shows a patient as they were left the last time; with surfaces if that is unknown or not readable.
   void begin(const std::string& patient, const Volume<std::int16_t>& ct);
   /// Offers a patient's structures: those labels that have a colour, none of them shown.
   void offer(const std::vector<Label>& labels, const view::OrganColours& colours);

@@ -7,16 +7,17 @@
 #include <chrono>
 #include <exception>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/gl/headless_context.h"
 
 namespace insonate {
 namespace {
 
 constexpr int kPlaces = 16;                    // per call: 0.6 s of two cores without a graphics card
+constexpr std::size_t kImagesToSearch = 20;    // of a wide search that nobody has asked for, if it takes as many
 constexpr double kSamePlace_mm = 8;            // as register_sweep() counts ends as one
 constexpr double kNear_mm = 6, kNear_deg = 6;  // that the first round with all its images looks around the start
 constexpr int kNearScattered = 64;
@@ -44,6 +45,10 @@ std::string_view to_string(LiveRegistrar::Work work) {
       break;
   }
   return "failed";
+}
+
+std::string to_string(const LiveRegistrar::Needs& needs) {
+  return std::to_string(needs.images) + ", of which two lie " + formatted("%.0f", needs.spread_mm) + " mm apart";
 }
 
 LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
@@ -129,6 +134,14 @@ void LiveRegistrar::give_way(const Task& task) {
   if (ending_ || is_outdated(task)) throw Abandoned();
 }
 
+LiveRegistrar::Needs LiveRegistrar::needs(bool is_wide, bool is_asked_for) const {
+  Needs needs;
+  if (is_wide) needs.spread_mm = kLeastSpread_mm;
+  // A search that nobody has asked for takes its time, and few images may be most similar at a wrong place.
+  if (is_wide && !is_asked_for) needs.images = std::min(std::size_t(settings_.slices), kImagesToSearch);
+  return needs;
+}
+
 /// Waits until a round is due and fills in its task. Returns false when the thread has to end.
 bool LiveRegistrar::begin_round(Task& task) {
   std::unique_lock lock(mutex_);
@@ -143,9 +156,8 @@ bool LiveRegistrar::begin_round(Task& task) {
     state_.in_use = task.sweep.images.size();
     state_.spread_mm = spread_mm(task.sweep);
     const bool searches = searches_ && !has_wide_;
-    // A search that nobody has asked for takes its time, and few images may be most similar at a wrong place.
-    if (state_.in_use < (searches ? std::min(std::size_t(settings_.slices), kImagesToSearch) : kLeastImages) ||
-        state_.spread_mm < (searches ? kLeastSpread_mm : kLeastApart_mm)) {
+    state_.needs = needs(wants_wide_ || searches, wants_wide_);
+    if (state_.in_use < state_.needs.images || state_.spread_mm < state_.needs.spread_mm) {
       state_.work = Work::waiting;
       continue;
     }
@@ -154,6 +166,7 @@ bool LiveRegistrar::begin_round(Task& task) {
     task.from = (task.wide || is_settled_) && !searches ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
+    const double least_spread_mm = state_.needs.spread_mm;
     lock.unlock();
     std::string problem;
     try {
@@ -161,7 +174,7 @@ bool LiveRegistrar::begin_round(Task& task) {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    if (problem.empty() && task.sweep.images.size() < kLeastImages)
+    if (problem.empty() && (task.sweep.images.size() < kLeastImages || spread_mm(task.sweep) < least_spread_mm))
       problem = "Too few of the images show what lies in the CT; move the probe.";
     lock.lock();
     if (task.epoch != epoch_) continue;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -42,9 +43,12 @@ struct LiveRound {
 class LiveRegistrar {
 public:
   static constexpr std::size_t kLeastImages = 6;  ///< of a round
-  static constexpr double kLeastApart_mm = 5;     ///< least spread_mm() of a round's images
-  static constexpr std::size_t kImagesToSearch =
-      20;  ///< of a wide search that nobody has asked for, if it takes as many
+
+  /// What a round asks of its images.
+  struct Needs {
+    std::size_t images = kLeastImages;
+    double spread_mm = 5;  ///< least spread_mm(); of a wide search kLeastSpread_mm, because it could not converge
+  };
 
   enum class Work {
     waiting,    ///< for images, or for the probe to move
@@ -61,6 +65,7 @@ public:
     std::size_t kept = 0;                   ///< images to choose from
     std::size_t in_use = 0;                 ///< images of the last round, or of the next while waiting
     double spread_mm = 0;                   ///< of those
+    Needs needs;                            ///< of the next round, while waiting
     std::size_t rounds = 0;                 ///< that have ended since the start or the last reset
     std::shared_ptr<const LiveRound> last;  ///< null before the first round
     std::string problem;  ///< why no round can begin or the thread has failed, as a sentence; usually empty
@@ -104,6 +109,7 @@ private:
   };
 
   void run();
+  Needs needs(bool is_wide, bool is_asked_for) const;
   bool begin_round(Task& task);
   void end_round(const Task& task, SweepRegistration found);
   void give_way(const Task& task);
@@ -129,5 +135,7 @@ private:
 };
 
 std::string_view to_string(LiveRegistrar::Work work);
+/// Returns what is needed, as words that end a sentence: "6, of which two lie 5 mm apart".
+std::string to_string(const LiveRegistrar::Needs& needs);
 
 }  // namespace insonate

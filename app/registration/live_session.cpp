@@ -70,7 +70,6 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
           volume_, probe, depth_mm(), request_.start, request_.settings, request_.gives_way, request_.searches,
           [this](TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) { keep_what_compares(sweep, ct_from_sweep); });
       registrar_->refine(request_.refines);
-      if (request_.searches) registrar_->search_widely();
     }
     registrar_->add(place_image(image.grey, image.sweep_from_probe, probe_from_pixel, input_));
   }
@@ -103,7 +102,6 @@ void LiveSession::refine(bool on) {
 }
 
 void LiveSession::search_widely() {
-  request_.searches = true;
   if (registrar_) registrar_->search_widely();
 }
 

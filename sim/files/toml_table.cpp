@@ -55,7 +55,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// Which characters line_of_deep_key() looks at.
+/// The characters that mean something to line_of_deep_key(). It skips all others.
 constexpr std::array<bool, 256> kMarks = [] {
   std::array<bool, 256> marks{};
   for (const unsigned char mark : std::string_view("\"'#.\n=,[]{}")) marks[mark] = true;

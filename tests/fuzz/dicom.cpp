@@ -24,6 +24,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 
 namespace {
 
@@ -37,12 +38,23 @@ bool is_own(const void* address) {
          there.dli_fbase == here.dli_fbase;
 }
 
+/// Whether an address lies in GDCM or in one of the codecs that it uses.
+bool is_of_codec(const void* address) {
+  Dl_info there{};
+  if (dladdr(address, &there) == 0 || there.dli_fname == nullptr) return false;
+  const std::string_view library = there.dli_fname;
+  return library.find("libgdcm") != std::string_view::npos || library.find("libcharls") != std::string_view::npos ||
+         library.find("libopenjp2") != std::string_view::npos;
+}
+
 void on_signal(int number, siginfo_t*, void* context) {
 #ifdef __x86_64__
   const auto at = static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP];
-  if (decoding && !is_own(reinterpret_cast<const void*>(at))) siglongjmp(input_ends, number);
+  const void* const place = reinterpret_cast<const void*>(at);
+  if (decoding && (number == SIGPROF ? is_of_codec(place) : !is_own(place))) siglongjmp(input_ends, number);
 #endif
-  // AddressSanitizer's allocator, which holds locks, is part of this program: the timer tries again.
+  // AddressSanitizer's allocator, which holds locks, is part of this program, and Insonate's own code calls other
+  // libraries: the timer tries again. libFuzzer ends an input that never leaves them.
   if (number == SIGPROF) return;
   std::signal(number, SIG_DFL);
   std::raise(number);

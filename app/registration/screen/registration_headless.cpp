@@ -61,9 +61,7 @@ int run_registration_headless(const RegistrationOptions& options) {
       throw InputError(options.tracker, "", "no image has come from it", "start the server, or give it more --seconds");
     throw InputError(options.tracker, "",
                      "its images do not suffice: " + std::to_string(state.in_use) + " within " +
-                         formatted("%.0f", state.spread_mm) + " mm; needed are " +
-                         std::to_string(std::min(request.settings.slices, int(LiveRegistrar::kImagesToSearch))) +
-                         ", of which two lie " + formatted("%.0f", kLeastSpread_mm) + " mm apart",
+                         formatted("%.0f", state.spread_mm) + " mm; needed are " + to_string(state.needs),
                      "move the probe, or give it more --seconds");
   }
   const std::filesystem::path saved = session.save(options.out);

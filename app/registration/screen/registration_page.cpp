@@ -18,9 +18,10 @@ std::string work_text(const LiveSession& session, const LiveRegistrar::State& st
   switch (state.work) {
     case Work::waiting:
       if (session.shown() == 0) return "Waiting for images";
-      return "Move the probe: " + std::to_string(state.in_use) + " images within " +
-             formatted("%.0f", state.spread_mm) + " mm; needed are " + std::to_string(LiveRegistrar::kLeastImages) +
-             " within " + formatted("%.0f", LiveRegistrar::kLeastApart_mm) + " mm or more";
+      return std::string(state.needs.spread_mm < kLeastSpread_mm ? "Move the probe: "
+                                                                 : "Move the probe, and the search begins: ") +
+             std::to_string(state.in_use) + " images within " + formatted("%.0f", state.spread_mm) +
+             " mm; needed are " + to_string(state.needs);
     case Work::preparing:
       return "Preparing shaders and volumes";
     case Work::refining:

@@ -20,7 +20,7 @@ Volume<std::int16_t> small_ct() {
 
 }  // namespace
 
-TEST_CASE("A look begins with labelled organs, and what is chosen and edited is shown") {
+TEST_CASE("A look begins with surfaces, and what is chosen and edited is shown") {
   PatientLook look;
   CHECK(!look.shown());
   CHECK(!look.is_edited());

@@ -213,11 +213,23 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   };
   registrar.refine(false);
   const auto enough = std::size_t(settings.slices);
-  // Of few images, or those of the scan's beginning, none is worth a search.
-  for (std::size_t n = 0; n < enough; ++n) add(n, 0.2);
+  const auto waits = [&] {
+    registrar.refine(true);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // three times as long as it waits at most
+    CHECK(registrar.state().work == LiveRegistrar::Work::waiting);
+    registrar.refine(false);
+    return registrar.state();
+  };
+  // Neither of few images that lie apart, nor of many at the scan's beginning, is a search worth while.
+  for (std::size_t n = 0; n + 1 < enough; ++n) add(n * (scan.images.size() - 1) / (enough - 1), 0.2);
+  const LiveRegistrar::State few = waits();
+  CHECK(few.in_use == enough - 1);
+  CHECK(few.spread_mm > kLeastSpread_mm);
+  for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % enough, 0.2);
+  const LiveRegistrar::State close = waits();
+  CHECK(close.in_use == enough);
+  CHECK(close.spread_mm < kLeastSpread_mm);
   registrar.refine(true);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  CHECK(registrar.state().work == LiveRegistrar::Work::waiting);
   for (std::size_t n = 0; n < enough; ++n) add(n * (scan.images.size() - 1) / (enough - 1), 0.2);
   wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
   REQUIRE_FALSE(registrar.state().last->found.converged());
@@ -225,6 +237,49 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % scan.images.size(), 1);
   wait_until(registrar, [](const LiveRegistrar::State& state) { return state.last->found.converged(); });
   CHECK(test::error_of(scan, registrar.state().ct_from_sweep) < kWithin_mm);
+
+  // The search has told the place from others, so that later rounds may have images that lie close together.
+  for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % enough, 1);
+  wait_until(registrar,
+             [&](const LiveRegistrar::State& state) { return spread_mm(state.last->sweep) < kLeastSpread_mm; });
+  for (const std::string& doubt : registrar.state().last->found.doubts) CHECK(doubt != kTooClose);
+}
+
+TEST_CASE("a wide search that is asked for begins when the images can tell one place from another") {
+  const test::Scan& scan = patient().scan;
+  SweepInput input;
+  input.probe = *find_probe("curvilinear");
+  input.depth_mm = kDepthMm;
+  RegistrationSettings settings;
+  settings.search_mm = settings.search_deg = 12;
+  settings.scattered = 300;
+  settings.slices = 20;
+  std::atomic<bool> leaves_out{true};
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, scan.ct_from_tracker, settings, false, false,
+                          [&](TrackedSweep& sweep, const glm::dmat4&) {
+                            if (leaves_out) std::ranges::fill(sweep.images, SweepImage(sweep.images.front()));
+                          });
+  const auto add = [&](std::size_t at) {
+    registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
+  };
+  registrar.refine(false);
+  for (std::size_t n = 0; n < 20; ++n) add(n);
+  registrar.search_widely();
+  wait_until(registrar, [](const LiveRegistrar::State& state) {
+    return state.work == LiveRegistrar::Work::waiting && state.in_use == 20;
+  });
+  CHECK(to_string(registrar.state().needs) == "6, of which two lie 25 mm apart");
+  CHECK(registrar.state().problem.empty());
+
+  // What is left of the images by then counts.
+  for (std::size_t n = 0; n < scan.images.size() - 1; ++n) add(n);
+  wait_until(registrar, [](const LiveRegistrar::State& state) { return !state.problem.empty(); });
+  CHECK(registrar.state().problem == "Too few of the images show what lies in the CT; move the probe.");
+  CHECK(registrar.state().rounds == 0);
+  leaves_out = false;
+  add(scan.images.size() - 1);
+  wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
+  for (const std::string& doubt : registrar.state().last->found.doubts) CHECK_THAT(doubt, !Contains("no wide search"));
 }
 
 TEST_CASE("a wide search that the images do not suffice for waits for other images, and is not forgotten") {
