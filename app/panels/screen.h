@@ -167,6 +167,7 @@ private:
   void draw_overlay(Trainer& trainer);
   void draw_record_button(Trainer& trainer, const Rect& where);
   void draw_status(Trainer& trainer);
+  void draw_status_words(const Trainer& trainer, Rect line);
   void draw_sweep_buttons(Trainer& trainer, Rect& line);
   void draw_start_page(Trainer& trainer);
   void draw_learners_page(Trainer& trainer);
