@@ -12,7 +12,7 @@
 namespace insonate {
 namespace {
 
-constexpr int kLeastWidth = 1024, kLeastHeight = 700;
+constexpr int kMinWidth = 1024, kMinHeight = 700;
 
 /// Copies parts of the window's back buffer to the screen, by GLX's extension MESA_copy_sub_buffer. Its functions are
 /// found at run time: the window may have been opened without X11, and X11's headers define words such as Status.
@@ -70,7 +70,7 @@ GlWindow open_gl_window(const std::string& title, int width, int height) {
   GlWindow window(
       glfwCreateWindow(std::min(width, widest), std::min(height, highest), title.c_str(), nullptr, nullptr));
   if (!window) throw std::runtime_error("no window with OpenGL 4.5 can be opened on this display");
-  glfwSetWindowSizeLimits(window.get(), kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowSizeLimits(window.get(), kMinWidth, kMinHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   return window;

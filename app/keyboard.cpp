@@ -437,11 +437,11 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       break;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
-      turn(ActionKind::gain, std::min(machine.gain_db + 1, Machine::kMostGain_db));
+      turn(ActionKind::gain, std::min(machine.gain_db + 1, Machine::kMaxGain_db));
       break;
     case GLFW_KEY_MINUS:
     case GLFW_KEY_KP_SUBTRACT:
-      turn(ActionKind::gain, std::max(machine.gain_db - 1, -Machine::kMostGain_db));
+      turn(ActionKind::gain, std::max(machine.gain_db - 1, -Machine::kMaxGain_db));
       break;
     case GLFW_KEY_LEFT_BRACKET:
       turn(ActionKind::depth, machine.depth_mm - 5);

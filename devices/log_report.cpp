@@ -13,7 +13,7 @@ namespace insonate {
 namespace {
 
 // Above every meaningful count, and below the largest integer.
-constexpr double kMostMissing = 1e15;
+constexpr double kMaxMissing = 1e15;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -32,7 +32,7 @@ void count_gaps(const std::vector<ProbeSample>& samples, LogReport& report) {
     const double intervals = steps[i] / report.interval_s;
     if (intervals > kGapIntervals)
       report.gaps.push_back(
-          {i + 1, samples[i + 1].time_s, steps[i], std::size_t(std::round(std::min(intervals, kMostMissing))) - 1});
+          {i + 1, samples[i + 1].time_s, steps[i], std::size_t(std::round(std::min(intervals, kMaxMissing))) - 1});
     else
       squares += (steps[i] - report.interval_s) * (steps[i] - report.interval_s);
   }
@@ -66,7 +66,7 @@ void follow_path(const std::vector<ProbeSample>& samples, LogReport& report) {
     const double s = b.time_s - a.time_s;
     report.path_mm += mm;
     if (!report.has_times) continue;
-    if ((mm > kJumpLeastMm && mm / s > kJumpMmPerS) || (deg > kJumpLeastDeg && deg / s > kJumpDegPerS))
+    if ((mm > kJumpMin_mm && mm / s > kJumpMmPerS) || (deg > kJumpMin_deg && deg / s > kJumpDegPerS))
       report.jumps.push_back({i, b.time_s, mm, deg});
   }
 }
@@ -95,7 +95,7 @@ std::vector<std::string> LogReport::findings() const {
                     ".");
   if (!jumps.empty()) found.push_back(count_of(jumps.size(), "jump") + " that no hand makes.");
   for (const auto& [status, dropout] : dropouts)
-    if (dropout.longest_s > PoseHistory::kStaleS)
+    if (dropout.longest_s > PoseHistory::kStale_s)
       found.push_back("A dropout (" + std::string(to_string(status)) + ") of " + milliseconds(dropout.longest_s) +
                       ", in which the picture stands still.");
   return found;

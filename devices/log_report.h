@@ -53,7 +53,7 @@ struct LogReport {
   double rate_hz() const { return interval_s > 0 ? 1 / interval_s : 0; }
 
   /// Returns what a person should check before the run is scored, one sentence each: missing samples, jumps, and
-  /// dropouts that froze the picture (longer than PoseHistory::kStaleS). A short dropout is not a finding: every
+  /// dropouts that froze the picture (longer than PoseHistory::kStale_s). A short dropout is not a finding: every
   /// tracker has some.
   std::vector<std::string> findings() const;
 };
@@ -61,8 +61,8 @@ struct LogReport {
 /// A step longer than this many median intervals is a gap: the next sample was expected after one.
 inline constexpr double kGapIntervals = 1.8;
 /// A scanning hand stays below 1 m/s and 360 degrees per second. Three times that, and more than noise, is a jump.
-inline constexpr double kJumpMmPerS = 3000, kJumpLeastMm = 10;
-inline constexpr double kJumpDegPerS = 1080, kJumpLeastDeg = 15;
+inline constexpr double kJumpMmPerS = 3000, kJumpMin_mm = 10;
+inline constexpr double kJumpDegPerS = 1080, kJumpMin_deg = 15;
 
 /// Checks samples with rising times. Without samples the report is empty.
 /// @param has_times  false if the times mean nothing

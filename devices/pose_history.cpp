@@ -11,7 +11,7 @@
 namespace insonate {
 namespace {
 
-// Number of newest samples through which a line is fitted for the velocity. DEVICES found this number best.
+// Newest samples through which a line is fitted for the velocity: of several numbers tried, this one predicted best.
 constexpr std::size_t kFitted = 13;
 
 }  // namespace
@@ -42,7 +42,7 @@ void PoseHistory::add(const ProbeSample& sample) {
   else if (!usable_.empty())
     usable_.back().unusable_from_s = std::min(usable_.back().unusable_from_s, sample.time_s);
   // The newest usable sample is kept however old it is, with those that give its velocity: the picture is frozen there.
-  while (!usable_.empty() && usable_.front().time_s < usable_.back().time_s - kKeptS) usable_.pop_front();
+  while (!usable_.empty() && usable_.front().time_s < usable_.back().time_s - kKept_s) usable_.pop_front();
 }
 
 void PoseHistory::clear() {
@@ -56,7 +56,7 @@ PoseEstimate PoseHistory::at(double time_s, double predict_s) const {
   if (next != usable_.end() && next->time_s == time_s) return {PoseAnswer::exact, next->pose, 0};
   if (next == usable_.begin()) return {};
   const Entry& last = *(next - 1);
-  if (next == usable_.end() || next->time_s - last.time_s > kBridgeS)
+  if (next == usable_.end() || next->time_s - last.time_s > kBridge_s)
     return after(std::size_t(next - 1 - usable_.begin()), time_s, predict_s);
   const double t = (time_s - last.time_s) / (next->time_s - last.time_s);
   return {PoseAnswer::interpolated, interpolate(last.pose, next->pose, t), time_s - last.time_s};
@@ -65,17 +65,17 @@ PoseEstimate PoseHistory::at(double time_s, double predict_s) const {
 PoseEstimate PoseHistory::after(std::size_t index, double time_s, double predict_s) const {
   const Entry& last = usable_[index];
   const double age_s = time_s - last.time_s;
-  const double horizon_s = std::min({predict_s, kPredictS, last.unusable_from_s - last.time_s});
-  const PoseAnswer how = age_s <= horizon_s ? PoseAnswer::predicted
-                         : age_s <= kStaleS ? PoseAnswer::held
-                                            : PoseAnswer::stale;
+  const double horizon_s = std::min({predict_s, kPredict_s, last.unusable_from_s - last.time_s});
+  const PoseAnswer how = age_s <= horizon_s  ? PoseAnswer::predicted
+                         : age_s <= kStale_s ? PoseAnswer::held
+                                             : PoseAnswer::stale;
   return {how, predict(index, std::min(age_s, horizon_s)), age_s};
 }
 
 Pose PoseHistory::predict(std::size_t index, double ahead_s) const {
   const Entry& last = usable_[index];
   std::size_t first = index;
-  while (first > 0 && index - first + 1 < kFitted && last.time_s - usable_[first - 1].time_s <= kBridgeS) --first;
+  while (first > 0 && index - first + 1 < kFitted && last.time_s - usable_[first - 1].time_s <= kBridge_s) --first;
   const auto count = double(index - first + 1);
 
   // Slopes of the least-squares lines through translation and rotation against time, both relative to the last sample.

@@ -33,13 +33,14 @@ struct PoseEstimate {
 /// the last usable sample ends the prediction.
 class PoseHistory {
 public:
-  /// Beyond this a prediction is worse than none, because a hand changes direction (DEVICES: 0.26 mm RMS at 20 ms, 0.76
-  /// at 50).
-  static constexpr double kPredictS = 0.030;
+  /// Beyond this a prediction errs too much, because a hand changes direction: by 0.4 mm RMS at 20 ms, 0.6 at 30, and 2
+  /// at 50 (docs/benchmarks/trackers).
+  static constexpr double kPredict_s = 0.030;
   /// Longer gaps between usable samples are not interpolated.
-  static constexpr double kBridgeS = 0.100;
-  static constexpr double kStaleS = 0.250;
-  static constexpr double kKeptS = 2.0;
+  static constexpr double kBridge_s = 0.100;
+  /// An older pose freezes the picture.
+  static constexpr double kStale_s = 0.250;
+  static constexpr double kKept_s = 2.0;
 
   /// Adds a sample. Samples come in the order of their times. A sample that is not later than the last one starts a new
   /// history.
@@ -47,8 +48,8 @@ public:
   void clear();
 
   /// Returns the pose at `time_s` on the tracker's clock. After the last usable sample the pose is predicted for
-  /// `predict_s`, at most kPredictS. With 0 it stays where it was.
-  PoseEstimate at(double time_s, double predict_s = kPredictS) const;
+  /// `predict_s`, at most kPredict_s. With 0 it stays where it was.
+  PoseEstimate at(double time_s, double predict_s = kPredict_s) const;
 
 private:
   struct Entry {

@@ -45,7 +45,7 @@ TrackerState Tracker::state() const {
   state.name = name_;
   state.last_status = last_status_;
   state.distortion = distortion_;
-  if (rejected_ != Rejection::none && clock_s(now_s_) - rejected_s_ <= kShowRejectionS) state.rejected = rejected_;
+  if (rejected_ != Rejection::none && clock_s(now_s_) - rejected_s_ <= kShowRejection_s) state.rejected = rejected_;
   state.delivered = delivered_;
   state.usable = usable_;
   state.progress = progress();
@@ -63,7 +63,7 @@ TrackerState Tracker::state() const {
     state.condition = TrackerCondition::finished;
   else if (delivered_ == 0)
     state.condition = TrackerCondition::waiting;
-  else if (clock_s(now_s_) - last_usable_s_ > kLostAfterS)
+  else if (clock_s(now_s_) - last_usable_s_ > kLostAfter_s)
     state.condition = TrackerCondition::lost;
   else
     state.condition = TrackerCondition::tracking;

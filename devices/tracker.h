@@ -19,17 +19,17 @@ class RawTap;
 enum class TrackerCondition {
   waiting,   ///< open, but no sample has come yet
   tracking,  ///< usable samples arrive
-  lost,      ///< no usable sample for kLostAfterS
+  lost,      ///< no usable sample for kLostAfter_s
   finished,  ///< a log has been replayed to its end: no more samples follow
 };
 
 std::string_view to_string(TrackerCondition condition);
 
 /// A tracker counts as lost after this long without a usable sample.
-inline constexpr double kLostAfterS = 1.0;
+inline constexpr double kLostAfter_s = 1.0;
 
 /// TrackerState reports the reason of a rejection for this long, so that a person can read it.
-inline constexpr double kShowRejectionS = 0.5;
+inline constexpr double kShowRejection_s = 0.5;
 
 /// State of a tracker, as the screen shows it.
 struct TrackerState {
@@ -41,7 +41,7 @@ struct TrackerState {
   std::uint64_t usable = 0;                      ///< those whose status is ok
   std::optional<double> progress;                ///< from 0 to 1, for a tracker that has an end
   std::optional<std::uint32_t> distortion;       ///< the tracker's latest distortion grade; empty if it reports none
-  Rejection rejected = Rejection::none;  ///< why the newest rejected sample was rejected, for kShowRejectionS after it
+  Rejection rejected = Rejection::none;  ///< why the newest rejected sample was rejected, for kShowRejection_s after it
   std::string problem;        ///< what is wrong with the device now and what to do, as a sentence; empty if nothing is
   std::uint64_t dropped = 0;  ///< samples lost because poll() was not called in time
 };

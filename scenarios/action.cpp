@@ -95,7 +95,7 @@ public:
     for (std::size_t i = 0; i < kind.numbers; ++i) action.numbers[i] = number(words[1 + i]);
     const bool takes_back = kind.kind == ActionKind::take_back;
     const bool has_slot = takes_back || kind.kind == ActionKind::caliper || kind.kind == ActionKind::ellipse;
-    if (has_slot) check_whole(action, "a slot", takes_back ? 0 : 1, Action::kMostSlots);
+    if (has_slot) check_whole(action, "a slot", takes_back ? 0 : 1, Action::kMaxSlots);
     if (kind.kind == ActionKind::guide) check_whole(action, "a guide", 0, 1);
     if (kind.kind == ActionKind::time_gain) check_whole(action, "a slider", 1, Action::kTimeGainSliders);
     if (kind.has_text && words.back().front() != ':') refuse("an action's text does not begin with ':'");

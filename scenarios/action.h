@@ -46,14 +46,14 @@ std::string_view word_of(ActionKind kind);
 /// One action with its arguments. Positions are mm in the probe's imaging plane: x lateral towards the marker, y along
 /// the central beam.
 struct Action {
-  static constexpr std::size_t kMostNumbers = 6;
+  static constexpr std::size_t kMaxNumbers = 6;
   static constexpr double kLargestNumber = 1e6;
-  static constexpr int kMostSlots = 9;
+  static constexpr int kMaxSlots = 9;
   static constexpr int kTimeGainSliders = 8;
   static constexpr std::size_t kLongestText = 240;  ///< bytes; longer text is cut when it is written
 
   ActionKind kind{};
-  std::array<double, kMostNumbers> numbers{};
+  std::array<double, kMaxNumbers> numbers{};
   std::string text{};
 
   int slot() const { return int(numbers[0]); }

@@ -12,6 +12,9 @@ namespace insonate {
 /// probe's own axes as the turns before it left them. So the rotation between the two poses, in the probe's frame, is
 /// Ry(rotation) Rx(tilt) Rz(rock), right-hand rule, and a part of one movement leaves the amounts of the next as they
 /// are.
+///
+/// These are not the angles of ViewValues, which lead from the reference to the probe in another order. Where only one
+/// angle differs from 0, both have it with opposite signs.
 struct GuidingMove {
   glm::dvec3 slide_mm{0.0};  ///< displacement of the face in patient coordinates, without the component along the
                              ///< reference's beam, which is pressing

@@ -33,7 +33,7 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
       choose(action.text);
       break;
     case ActionKind::depth:
-      depth_mm = std::clamp(action.numbers[0], kLeastDepth_mm, kMostDepth_mm);
+      depth_mm = std::clamp(action.numbers[0], kMinDepth_mm, kMaxDepth_mm);
       break;
     case ActionKind::frequency:
       frequency_mhz = action.numbers[0];
@@ -42,20 +42,20 @@ void Machine::apply(const Action& action, const std::optional<Pose>& last_valid)
       gain_db = action.numbers[0];
       break;
     case ActionKind::dynamic_range:
-      dynamic_range_db = std::clamp(action.numbers[0], kLeastDynamicRange_db, kMostDynamicRange_db);
+      dynamic_range_db = std::clamp(action.numbers[0], kMinDynamicRange_db, kMaxDynamicRange_db);
       break;
     case ActionKind::time_gain:
       time_gain_db.at(std::size_t(action.slot() - 1)) =
-          std::clamp(action.numbers[1], -kMostTimeGain_db, kMostTimeGain_db);
+          std::clamp(action.numbers[1], -kMaxTimeGain_db, kMaxTimeGain_db);
       break;
     case ActionKind::compounding:
-      steering_angles = 2 * (int(std::clamp(action.numbers[0], 1.0, double(kMostSteeringAngles))) / 2) + 1;
+      steering_angles = 2 * (int(std::clamp(action.numbers[0], 1.0, double(kMaxSteeringAngles))) / 2) + 1;
       break;
     case ActionKind::persistence:
-      persistence = std::clamp(action.numbers[0], 0.0, kMostPersistence);
+      persistence = std::clamp(action.numbers[0], 0.0, kMaxPersistence);
       break;
     case ActionKind::edge_enhancement:
-      edge_enhancement = std::clamp(action.numbers[0], 0.0, kMostEdgeEnhancement);
+      edge_enhancement = std::clamp(action.numbers[0], 0.0, kMaxEdgeEnhancement);
       break;
     case ActionKind::speckle_reduction:
       speckle_reduction = std::clamp(action.numbers[0], 0.0, 1.0);
@@ -116,7 +116,7 @@ Machine starting_machine(const Scenario& scenario, const Case& subject) {
     const ReferenceView* view = subject.find_view(step.view);
     if (!view || !find_probe(view->probe)) continue;
     machine.choose(view->probe);
-    machine.depth_mm = std::clamp(view->depth_mm, Machine::kLeastDepth_mm, Machine::kMostDepth_mm);
+    machine.depth_mm = std::clamp(view->depth_mm, Machine::kMinDepth_mm, Machine::kMaxDepth_mm);
     break;
   }
   return machine;

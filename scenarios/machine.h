@@ -22,7 +22,7 @@ struct Machine {
   double depth_mm = 160;
   double frequency_mhz = 3.5;
   double gain_db = 0;
-  double dynamic_range_db = kUsualDynamicRangeDb;
+  double dynamic_range_db = kUsualDynamicRange_db;
   std::array<double, Action::kTimeGainSliders>
       time_gain_db{};       ///< sliders from near to far, added to the machine's own compensation
   int steering_angles = 3;  ///< of compounding, odd; these four as in Settings, at rest as in with_usual_display()
@@ -31,11 +31,11 @@ struct Machine {
   bool frozen = false;
   std::optional<Pose> frozen_at;  ///< pose of the frozen picture; empty if no valid sample came before
 
-  static constexpr double kLeastDepth_mm = 30, kMostDepth_mm = 240;
-  static constexpr double kLeastDynamicRange_db = 30, kMostDynamicRange_db = 90;
-  static constexpr int kMostSteeringAngles = 5;
-  static constexpr double kMostPersistence = 0.9, kMostEdgeEnhancement = 2;
-  static constexpr double kMostGain_db = 30, kMostTimeGain_db = 20;  ///< in both directions from 0
+  static constexpr double kMinDepth_mm = 30, kMaxDepth_mm = 240;
+  static constexpr double kMinDynamicRange_db = 30, kMaxDynamicRange_db = 90;
+  static constexpr int kMaxSteeringAngles = 5;
+  static constexpr double kMaxPersistence = 0.9, kMaxEdgeEnhancement = 2;
+  static constexpr double kMaxGain_db = 30, kMaxTimeGain_db = 20;  ///< in both directions from 0
 
   /// Returns the probe that `probe` names. Throws std::logic_error before a probe is chosen.
   const Probe& transducer() const;

@@ -269,8 +269,8 @@ ExamResult result_from_json(std::string_view text, const std::string& name) {
     ExamResult result;
     Reader reader{json};
     each_field(reader, result);
-    constexpr double kMostTime_s = 1e9;  // far more than any scan, and its milliseconds are whole numbers
-    if (!(result.motion.time_s >= 0 && result.motion.time_s <= kMostTime_s))
+    constexpr double kMaxTime_s = 1e9;  // far more than any scan, and its milliseconds are whole numbers
+    if (!(result.motion.time_s >= 0 && result.motion.time_s <= kMaxTime_s))
       throw std::runtime_error(formatted("a scan of %g s", result.motion.time_s));
     return result;
   } catch (const Json::exception& error) {

@@ -80,9 +80,9 @@ std::string percentage(const ExamResult& result) {
   const auto misleads = [&](const std::string& text) {
     return result.percent < result.pass_mark_percent && std::atof(text.c_str()) >= result.pass_mark_percent;
   };
-  constexpr int kMostDecimals = 12;
+  constexpr int kMaxDecimals = 12;
   int decimals = 1;
-  while (!result.passed && decimals < kMostDecimals && misleads(fixed(result.percent, decimals))) ++decimals;
+  while (!result.passed && decimals < kMaxDecimals && misleads(fixed(result.percent, decimals))) ++decimals;
   return fixed(result.percent, decimals);
 }
 

@@ -8,10 +8,10 @@ namespace insonate {
 
 /// The grey scale of a CT picture, Hounsfield units.
 struct WindowLevel {
-  static constexpr double kLeastWindow = 1, kMostWindow = 4000, kLeastLevel = -1024, kMostLevel = 3071;
+  static constexpr double kMinWindow = 1, kMaxWindow = 4000, kMinLevel = -1024, kMaxLevel = 3071;
 
-  double window_hu = 400;  ///< width, kLeastWindow to kMostWindow
-  double level_hu = 40;    ///< middle, kLeastLevel to kMostLevel
+  double window_hu = 400;  ///< width, kMinWindow to kMaxWindow
+  double level_hu = 40;    ///< middle, kMinLevel to kMaxLevel
 
   bool operator==(const WindowLevel&) const = default;
 };

@@ -22,7 +22,7 @@ public:
   /// Ends a part of the frame: the time since the part before counts for it. Does nothing unless parts are measured.
   /// Needs the OpenGL context current.
   void end(FramePart part);
-  /// What has come of a frame.
+  /// How a frame ended.
   struct Outcome {
     bool new_picture = false;  ///< the ultrasound's pixels are new
     bool shown = false;        ///< the window's picture has changed and was shown

@@ -136,7 +136,7 @@ void IgtlFeed::publish(const Session& session) {
 
 void IgtlFeed::show(const DrawnPicture& picture) {
   if (!wants_pictures()) return;
-  const DrawnPicture small = thinned(picture, kMostPixels);
+  const DrawnPicture small = thinned(picture, kMaxPixels);
   server_.publish(Stream::image, igtl::make_image("Ultrasound", stamp_now(), small.grey, ras_from_picture(small),
                                                   small.geometry.mm_per_pixel));
 }

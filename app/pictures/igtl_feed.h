@@ -17,14 +17,14 @@ igtl::Address parse_server_address(const std::string& text, const std::string& f
 
 /// Publishes the session to OpenIGTLink clients, in RAS as 3D Slicer uses it:
 ///   TRANSFORM "ProbeToRas"  the pose of the picture, each frame; none while no usable pose comes
-///   IMAGE "Ultrasound"      each new picture; at most kMostPixels, subsampled if it has more
+///   IMAGE "Ultrasound"      each new picture; at most kMaxPixels, subsampled if it has more
 ///   STATUS "Insonate"       the state of the session, when it has changed
 ///   STRING "Event"          "exam started: ...", "step 2 of 3: ...", "exam finished: 84 %, passed", "frozen", "live",
 ///                           "mark 1", "tracking lost", "tracking"
 /// While no client is connected it asks for no picture, so that none is read back from the graphics card.
 class IgtlFeed {
 public:
-  static constexpr int kMostPixels = 1 << 20;
+  static constexpr int kMaxPixels = 1 << 20;
 
   explicit IgtlFeed(const igtl::Address& address) : server_(address, "--igtl-server") {}
 

@@ -23,9 +23,9 @@ namespace {
 constexpr std::size_t kEachVoxel = 13;
 
 std::vector<float> histogram_of(const Volume<std::int16_t>& ct) {
-  std::vector<float> bins(view::TransferTable::kEntries / PatientLook::kBinHu, 0.0f);
+  std::vector<float> bins(view::TransferTable::kEntries / PatientLook::kBin_hu, 0.0f);
   for (std::size_t i = 0; i < ct.voxels.size(); i += kEachVoxel) {
-    const int bin = (ct.voxels[i] - view::kFirstTransferHu) / PatientLook::kBinHu;
+    const int bin = (ct.voxels[i] - view::kFirstTransfer_hu) / PatientLook::kBin_hu;
     if (bin >= 0 && bin < int(bins.size())) bins[std::size_t(bin)] += 1;
   }
   for (float& bin : bins) bin = std::log1p(bin);
@@ -90,10 +90,10 @@ void PatientLook::edited() {
 
 void PatientLook::move_point(std::size_t index, double hu, double opacity) {
   std::vector<TransferPoint>& points = shown_->points;
-  const double least = index == 0 ? view::kFirstTransferHu : points[index - 1].hu + 1;
-  const double most = index + 1 == points.size() ? view::kLastTransferHu : points[index + 1].hu - 1;
+  const double least = index == 0 ? view::kFirstTransfer_hu : points[index - 1].hu + 1;
+  const double most = index + 1 == points.size() ? view::kLastTransfer_hu : points[index + 1].hu - 1;
   points[index].hu = std::clamp(hu, std::min(least, most), most);
-  points[index].opacity = std::clamp(opacity, 0.0, view::kMostOpacity);
+  points[index].opacity = std::clamp(opacity, 0.0, view::kMaxOpacity);
   edited();
 }
 
@@ -104,7 +104,7 @@ void PatientLook::colour_point(std::size_t index, const glm::dvec3& colour) {
 
 std::optional<std::size_t> PatientLook::add_point(double hu, double opacity) {
   std::vector<TransferPoint>& points = shown_->points;
-  if (points.size() >= view::kMostTransferPoints) return std::nullopt;
+  if (points.size() >= view::kMaxTransferPoints) return std::nullopt;
   const auto after = std::find_if(points.begin(), points.end(), [&](const TransferPoint& p) { return p.hu >= hu; });
   const std::size_t index = std::size_t(after - points.begin());
   TransferPoint point = shown_->at(hu);

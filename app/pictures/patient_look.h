@@ -84,9 +84,9 @@ public:
   /// Stores how the patient looks, if that has changed since begin(). Throws InputError if it cannot be written.
   void keep();
 
-  /// Returns how often values occur in the CT: per bin from kFirstTransferHu on, the logarithm of its voxels, 0 to 1.
+  /// Returns how often values occur in the CT: per bin from kFirstTransfer_hu on, the logarithm of its voxels, 0 to 1.
   const std::vector<float>& histogram() const { return histogram_; }
-  static constexpr int kBinHu = 8;
+  static constexpr int kBin_hu = 8;
 
 private:
   void edited();

@@ -13,7 +13,7 @@ namespace insonate {
 namespace {
 
 /// Below this width the fan's own samples are coarser than the screen.
-constexpr int kLeastWidth = 240;
+constexpr int kMinWidth = 240;
 
 /// A plane seen more edge-on than this (cosine of the angle to its normal) hides little of the patient, and cutting
 /// there would remove most of the body.
@@ -114,7 +114,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   shown_pose_ = *pose;
   shown_quality_ = quality;
   settings.image_width =
-      std::max(int(std::lround(settings.image_width * quality)), std::min(kLeastWidth, settings.image_width));
+      std::max(int(std::lround(settings.image_width * quality)), std::min(kMinWidth, settings.image_width));
   settings.image_height = high(settings.image_width);
   simulator_.set_settings(at_quality(settings, level_));
   simulator_.set_pose(*pose);
@@ -251,7 +251,7 @@ std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& vie
   if (!ultrasound_ || !probe) return std::nullopt;
   Machine untouched;
   untouched.choose(view.probe);
-  untouched.depth_mm = std::clamp(view.depth_mm, Machine::kLeastDepth_mm, Machine::kMostDepth_mm);
+  untouched.depth_mm = std::clamp(view.depth_mm, Machine::kMinDepth_mm, Machine::kMaxDepth_mm);
   Settings settings = settings_of(untouched);
   settings.image_width = shown_.image_width;
   settings.image_height = shown_.image_height;

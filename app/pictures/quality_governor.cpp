@@ -23,7 +23,7 @@ constexpr int kFewestTurns = 2;
 /// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
 constexpr double kQuickForAllViews = 0.45;
 /// Most by which one decision changes the quality.
-constexpr double kLeastStep = 0.7, kMostStep = 1.15;
+constexpr double kMinStep = 0.7, kMaxStep = 1.15;
 
 }  // namespace
 
@@ -57,9 +57,9 @@ void QualityGovernor::decide(double frame_s) {
       turns_of_motion_ = share > kMuchTooSlow ? kFewestTurns : turns_of_motion_ + 1;
       return;
     }
-    of_motion_ = std::max(kLeast, of_motion_ * std::max(kLeastStep, std::sqrt(kAim / share)));
+    of_motion_ = std::max(kMin, of_motion_ * std::max(kMinStep, std::sqrt(kAim / share)));
   } else if (share < kQuick && of_motion_ < 1) {
-    of_motion_ = std::min(1.0, of_motion_ * std::min(kMostStep, std::sqrt(kAim / share)));
+    of_motion_ = std::min(1.0, of_motion_ * std::min(kMaxStep, std::sqrt(kAim / share)));
   } else if (share < (turns_of_motion_ == kFewestTurns ? kQuick : kQuickForAllViews)) {
     turns_of_motion_ = std::max(0, turns_of_motion_ - 1);
   }

@@ -11,7 +11,7 @@ namespace insonate {
 /// speed of the machine. A moving picture that is recorded keeps the pixels that it was drawn with.
 class QualityGovernor {
 public:
-  static constexpr double kLeast = 0.6;
+  static constexpr double kMin = 0.6;
   /// The time that a frame of a moving picture may take.
   static constexpr double kFrame_s = 1.0 / 30;
   /// Decides this often during motion, so that a few decisions fit in half a second.
@@ -19,7 +19,7 @@ public:
   /// Time without any computation after which the picture counts as still.
   static constexpr double kRest_s = 0.3;
 
-  /// Returns the share of the screen's pixels along each side for the next frame, kLeast to 1.
+  /// Returns the share of the screen's pixels along each side for the next frame, kMin to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
   /// Returns how many frames one of the views beside the ultrasound has for itself: 0 (all are drawn in each frame), 1
   /// or 2.

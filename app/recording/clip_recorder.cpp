@@ -16,7 +16,7 @@ namespace insonate {
 namespace {
 
 /// Some tenths of a second: enough to bridge a busy moment.
-constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMaxWaiting = 8;
 /// Seeking in a clip goes to these.
 constexpr unsigned kKeyEvery = 60;
 /// Speckle is noise, which compresses badly: at this rate (kbit/s) its grain stays. The rate is a limit, not a target.
@@ -174,7 +174,7 @@ bool ClipRecorder::take(const Image<Rgba8>& picture, double time_s) {
 bool ClipRecorder::enqueue(Image<Rgba8> picture, double time_s) {
   last_s_ = time_s;
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= kMostWaiting) return false;
+  if (waiting_.size() >= kMaxWaiting) return false;
   waiting_.push_back({std::move(picture), time_s - first_s_});
   changed_.notify_all();
   return true;

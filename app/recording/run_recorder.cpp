@@ -9,7 +9,7 @@ namespace insonate {
 namespace {
 
 /// Limit of the data that waits to be written: several seconds of pictures, and hours of samples.
-constexpr std::size_t kMostBytes = std::size_t(64) << 20;
+constexpr std::size_t kMaxBytes = std::size_t(64) << 20;
 
 std::size_t bytes_of(const DrawnPicture& picture) {
   return picture.grey.pixels.size();
@@ -102,7 +102,7 @@ void RunRecorder::take(const DrawnPicture& picture) {
   if (!wants_pictures() || picture.attempt != attempt_) return;
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_bytes_ + bytes_of(picture) > kMostBytes) {
+    if (waiting_bytes_ + bytes_of(picture) > kMaxBytes) {
       ++left_out_;
       return;
     }

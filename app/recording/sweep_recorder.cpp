@@ -88,7 +88,7 @@ void SweepRecorder::take(const DrawnPicture& picture) {
   meter_.add(tracked);
   tracked.grey = picture.grey;
   bytes_ += tracked.grey.pixels.size();
-  const bool full = bytes_ >= kMostBytes;
+  const bool full = bytes_ >= kMaxBytes;
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(tracked));
@@ -114,7 +114,7 @@ std::shared_ptr<const SweptVolume> SweepRecorder::take_finished() {
 void SweepRecorder::run() {
   std::unique_lock lock(mutex_);
   try {
-    GrowingVolume growing(kVoxel_mm, ReconstructionSettings(), kMostReconstructedVoxels);
+    GrowingVolume growing(kVoxel_mm, ReconstructionSettings(), kMaxReconstructedVoxels);
     for (;;) {
       changed_.wait(lock, [this] { return !waiting_.empty() || ending_ || dropped_; });
       if (dropped_) return;

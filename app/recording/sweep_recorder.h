@@ -40,7 +40,7 @@ public:
   /// Width of the simulated beam along the elevation: Settings::slice_thickness_mm of the trainer.
   static constexpr double kBeam_mm = 3;
   /// The pictures stay in memory until the volume is made. A sweep that would take more is ended by itself.
-  static constexpr std::size_t kMostBytes = std::size_t(512) << 20;
+  static constexpr std::size_t kMaxBytes = std::size_t(512) << 20;
 
   SweepRecorder() = default;
   /// Drops a sweep that is not reconstructed yet.

@@ -52,16 +52,10 @@ std::string to_string(const LiveRegistrar::Needs& needs) {
 }
 
 LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                             const RegistrationSettings& settings, bool gives_way, bool searches,
+                             const LiveRegistrarSettings& settings,
                              std::function<void(TrackedSweep&, const glm::dmat4&)> prepare)
-    : volume_(volume),
-      start_(start),
-      settings_(settings),
-      gives_way_(gives_way),
-      searches_(searches),
-      prepare_(std::move(prepare)),
-      window_(probe, depth_mm) {
-  settings_.batch = kPlaces;
+    : volume_(volume), start_(start), settings_(settings), prepare_(std::move(prepare)), window_(probe, depth_mm) {
+  settings_.search.batch = kPlaces;
   state_.ct_from_sweep = start;
   thread_ = std::thread([this] { run(); });
 }
@@ -136,9 +130,9 @@ void LiveRegistrar::give_way(const Task& task) {
 
 LiveRegistrar::Needs LiveRegistrar::needs(bool is_wide, bool is_asked_for) const {
   Needs needs;
-  if (is_wide) needs.spread_mm = kLeastSpread_mm;
+  if (is_wide) needs.spread_mm = kMinSpread_mm;
   // A search that nobody has asked for takes its time, and few images may be most similar at a wrong place.
-  if (is_wide && !is_asked_for) needs.images = std::min(std::size_t(settings_.slices), kImagesToSearch);
+  if (is_wide && !is_asked_for) needs.images = std::min(std::size_t(settings_.search.slices), kImagesToSearch);
   return needs;
 }
 
@@ -152,17 +146,17 @@ bool LiveRegistrar::begin_round(Task& task) {
       if (!wants_wide_ && (!refines_ || state_.work != Work::waiting)) state_.work = Work::resting;
       continue;
     }
-    task.sweep = window_.chosen(std::size_t(settings_.slices));
+    task.sweep = window_.chosen(std::size_t(settings_.search.slices));
     state_.in_use = task.sweep.images.size();
     state_.spread_mm = spread_mm(task.sweep);
-    const bool searches = searches_ && !has_wide_;
+    const bool searches = settings_.searches && !has_wide_;
     state_.needs = needs(wants_wide_ || searches, wants_wide_);
     if (state_.in_use < state_.needs.images || state_.spread_mm < state_.needs.spread_mm) {
       state_.work = Work::waiting;
       continue;
     }
     task.wide = std::exchange(wants_wide_, false) || searches;
-    task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.slices);
+    task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.search.slices);
     task.from = (task.wide || is_settled_) && !searches ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
@@ -174,7 +168,7 @@ bool LiveRegistrar::begin_round(Task& task) {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    if (problem.empty() && (task.sweep.images.size() < kLeastImages || spread_mm(task.sweep) < least_spread_mm))
+    if (problem.empty() && (task.sweep.images.size() < kMinImages || spread_mm(task.sweep) < least_spread_mm))
       problem = "Too few of the images show what lies in the CT; move the probe.";
     lock.lock();
     if (task.epoch != epoch_) continue;
@@ -213,16 +207,16 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
 
 void LiveRegistrar::run() {
   // Of this thread, whose priority those that it makes inherit, and with them those with which llvmpipe computes.
-  if (gives_way_) {
+  if (settings_.gives_way) {
     const sched_param none{};
     pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
   }
   try {
     std::optional<gl::HeadlessContext> context;
     std::unique_ptr<SweepRegistrar> registrar;
-    const RegistrationSettings wide = settings_;
+    const RegistrationSettings wide = settings_.search;
     Task task;
-    settings_.between_calls = [this, &task] { give_way(task); };
+    settings_.search.between_calls = [this, &task] { give_way(task); };
     while (begin_round(task)) {
       try {
         if (!registrar) {
@@ -231,7 +225,7 @@ void LiveRegistrar::run() {
             state_.work = Work::preparing;
           }
           context.emplace();
-          registrar = std::make_unique<SweepRegistrar>(volume_, task.sweep, settings_);
+          registrar = std::make_unique<SweepRegistrar>(volume_, task.sweep, settings_.search);
           const std::lock_guard lock(mutex_);
           state_.work = task.wide ? Work::searching : Work::refining;
         } else {

@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "sim/alignment/registration.h"
-#include "sim/alignment/sweep_window.h"
-#include "sim/alignment/tracked_sweep.h"
+#include "sim/registration/registration.h"
+#include "sim/registration/sweep_window.h"
+#include "sim/registration/tracked_sweep.h"
 #include "sim/tissue/acoustic_volume.h"
 
 namespace insonate {
@@ -27,27 +27,35 @@ struct LiveRound {
   SweepRegistration found;
 };
 
+/// How a live registration searches, and what it gives way to.
+struct LiveRegistrarSettings {
+  RegistrationSettings search;
+  bool gives_way = true;  ///< to a picture that is drawn meanwhile; false: the thread has the caller's priority
+  bool searches = false;  ///< widely in each round until one has converged; search_widely() asks for one search
+};
+
 /// Refines a registration while images arrive, on a thread of its own with an OpenGL context of its own. Each round
 /// takes well-spread images of the newest ones and follows the estimate by local searches. A wide search looks for
 /// other places too; only one that converges makes the estimate count as converged. Until there are as many images as a
 /// round takes, each round begins at the start: what few images find may be a wrong place that no later round leaves.
-/// For the same reason the first round with all its images looks around the start. Where nobody can ask for a wide
-/// search, each round is one, around the start, until one has converged; it waits for images that can tell.
+/// For the same reason the first round with all its images looks around the start. Without a person who can ask for
+/// a wide search, every round is one, around the start, until one converges; the first begins once two images lie
+/// kMinSpread_mm apart.
 ///
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
 ///
-///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, true, false, prepare);
+///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, prepare);
 ///     registrar.add(image);                      // as they come
 ///     show(registrar.state().ct_from_sweep);     // each frame
 class LiveRegistrar {
 public:
-  static constexpr std::size_t kLeastImages = 6;  ///< of a round
+  static constexpr std::size_t kMinImages = 6;  ///< of a round
 
   /// What a round asks of its images.
   struct Needs {
-    std::size_t images = kLeastImages;
-    double spread_mm = 5;  ///< least spread_mm(); of a wide search kLeastSpread_mm, because it could not converge
+    std::size_t images = kMinImages;
+    double spread_mm = 5;  ///< least spread_mm(); of a wide search kMinSpread_mm, because it could not converge
   };
 
   enum class Work {
@@ -64,9 +72,9 @@ public:
     glm::dmat4 ct_from_sweep{1.0};          ///< the estimate
     std::size_t kept = 0;                   ///< images to choose from
     std::size_t in_use = 0;                 ///< images of the last round, or of the next while waiting
-    double spread_mm = 0;                   ///< of those
-    Needs needs;                            ///< of the next round, while waiting
-    std::size_t rounds = 0;                 ///< that have ended since the start or the last reset
+    double spread_mm = 0;                   ///< how far apart the images in use lie, by spread_mm()
+    Needs needs;                            ///< what the next round asks of its images, while waiting
+    std::size_t rounds = 0;                 ///< rounds that have ended since the start or the last reset
     std::shared_ptr<const LiveRound> last;  ///< null before the first round
     std::string problem;  ///< why no round can begin or the thread has failed, as a sentence; usually empty
   };
@@ -75,11 +83,8 @@ public:
   /// @param start   ct_from_sweep
   /// @param prepare  called on the thread before each round with its images and the estimate; it may leave out pixels
   ///                and images, and an InputError that it throws is the problem: the round waits for other images
-  /// @param gives_way  false: there is no picture, and the thread has the caller's priority
-  /// @param searches   until it has found the place, by itself; search_widely() asks for one search
   LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                const RegistrationSettings& settings, bool gives_way, bool searches,
-                std::function<void(TrackedSweep&, const glm::dmat4&)> prepare);
+                const LiveRegistrarSettings& settings, std::function<void(TrackedSweep&, const glm::dmat4&)> prepare);
   /// Ends the thread within one call of the similarity.
   ~LiveRegistrar();
   LiveRegistrar(const LiveRegistrar&) = delete;
@@ -117,8 +122,7 @@ private:
 
   const AcousticVolume& volume_;
   const glm::dmat4 start_;
-  RegistrationSettings settings_;
-  const bool gives_way_, searches_;
+  LiveRegistrarSettings settings_;
   const std::function<void(TrackedSweep&, const glm::dmat4&)> prepare_;
 
   mutable std::mutex mutex_;

@@ -67,7 +67,8 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
       Probe probe = *input_.probe;
       probe.lines = input_.width;
       registrar_ = std::make_unique<LiveRegistrar>(
-          volume_, probe, depth_mm(), request_.start, request_.settings, request_.gives_way, request_.searches,
+          volume_, probe, depth_mm(), request_.start,
+          LiveRegistrarSettings{request_.settings, request_.gives_way, request_.searches},
           [this](TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) { keep_what_compares(sweep, ct_from_sweep); });
       registrar_->refine(request_.refines);
     }
@@ -81,10 +82,10 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
 
 // Called on the registrar's thread.
 void LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const {
-  constexpr double kMostLeftOut = 0.5;
+  constexpr double kMaxLeftOut = 0.5;
   check_shows_fan(input_.file, sweep);
   check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
-  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep) > kMostLeftOut)
+  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep) > kMaxLeftOut)
     throw InputError(input_.file, "", "most of what the images show lies where the CT ends",
                      "move the probe away from the CT's ends");
 }

@@ -11,8 +11,8 @@
 
 #include "app/registration/live_registrar.h"
 #include "devices/igtl/tracked_images.h"
-#include "sim/alignment/echo_seen.h"
-#include "sim/alignment/find_fan.h"
+#include "sim/registration/echo_seen.h"
+#include "sim/registration/find_fan.h"
 #include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/case.h"
 #include "tools/register/read_sweep.h"

@@ -44,7 +44,7 @@ void declare_registration(CLI::App& arguments, RegistrationOptions& options) {
       ->check(CLI::Range(1.0, 90.0))
       ->capture_default_str();
   mode.add_option("--slices", options.settings.slices, "Use this many of the newest images, well spread")
-      ->check(CLI::Range(int(LiveRegistrar::kLeastImages), 100))
+      ->check(CLI::Range(int(LiveRegistrar::kMinImages), 100))
       ->capture_default_str();
   mode.add_flag("!--no-refining", options.refines, "Do not refine until the button is pressed");
   mode.add_option("--out", options.out, "Save to this new folder, or to the next free name: NAME-2")

@@ -41,8 +41,8 @@ void Author::see(const Session& session) {
     for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
       parts_.push_back({names[i], landmarks, wanted_.contains(names[i])});
   };
-  add(seen.structures, kMostStructures, false);
-  add(seen.landmarks, kMostLandmarks, true);
+  add(seen.structures, kMaxStructures, false);
+  add(seen.landmarks, kMaxLandmarks, true);
 }
 
 void Author::toggle(std::size_t part) {

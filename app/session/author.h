@@ -21,7 +21,7 @@ public:
     bool wanted = false;
   };
   /// Limits set by the room on the screen: the largest structures of the picture, and landmarks.
-  static constexpr std::size_t kMostStructures = 14, kMostLandmarks = 4;
+  static constexpr std::size_t kMaxStructures = 14, kMaxLandmarks = 4;
 
   explicit Author(std::filesystem::path case_folder) : case_folder_(std::move(case_folder)) {}
 

@@ -30,7 +30,7 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
   for (int k = 0; k < ct.grid.size.z; k += kStride)
     for (int j = 0; j < ct.grid.size.y; j += kStride)
       for (int i = 0; i < ct.grid.size.x; i += kStride) {
-        if (ct.at({i, j, k}) <= kSkinHu) continue;
+        if (ct.at({i, j, k}) <= kSkin_hu) continue;
         const glm::dvec3 p = ct.grid.patient_from_index({i, j, k});
         low = glm::min(low, p);
         high = glm::max(high, p);

@@ -102,9 +102,9 @@ std::shared_ptr<const LoadedCase> Loading::take() {
 }
 
 std::optional<double> time_left_s(double elapsed_s, double first_share, double share) {
-  constexpr double kLeast_s = 1, kLeastShare = 0.03;
+  constexpr double kMin_s = 1, kMinShare = 0.03;
   const double done = share - first_share;
-  if (elapsed_s < kLeast_s || done < kLeastShare) return std::nullopt;
+  if (elapsed_s < kMin_s || done < kMinShare) return std::nullopt;
   return elapsed_s * (1 - share) / done;
 }
 

@@ -86,7 +86,7 @@ void PictureTools::choose(Tool tool) {
 
 int PictureTools::slot() const {
   if (chosen_slot_) return *chosen_slot_;
-  const int last = measuring() ? int(measuring()->slots.size()) : Action::kMostSlots;
+  const int last = measuring() ? int(measuring()->slots.size()) : Action::kMaxSlots;
   for (int slot = 1; slot <= last; ++slot)
     if (!annotations_.measured().contains(slot)) return slot;
   return last;
@@ -183,9 +183,9 @@ void PictureTools::release(Session& session, const glm::dvec2& at, double reach_
   }
   // A click sets the first end. A drag sets both.
   if (std::exchange(first_press_, false) && caliper_length_mm(*in_hand_) <= reach_mm) return;
-  if (caliper_length_mm(*in_hand_) < kLeast_mm) return drop();
+  if (caliper_length_mm(*in_hand_) < kMin_mm) return drop();
   if (in_hand_->kind == ActionKind::ellipse && !std::exchange(has_axis_, true)) return;
-  if (in_hand_->kind == ActionKind::ellipse && in_hand_->numbers[5] < kLeast_mm / 2) return;
+  if (in_hand_->kind == ActionKind::ellipse && in_hand_->numbers[5] < kMin_mm / 2) return;
   commit(session, *in_hand_);
 }
 

@@ -22,7 +22,7 @@ namespace insonate {
 class PictureTools {
 public:
   enum class Tool { distance, ellipse, point, label };
-  static constexpr double kLeast_mm = 0.5;  ///< a shorter caliper is an accidental click
+  static constexpr double kMin_mm = 0.5;  ///< a shorter caliper is an accidental click
 
   /// To be called after each Session::advance().
   void see(const Session& session);

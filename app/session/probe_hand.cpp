@@ -23,7 +23,7 @@ constexpr double kCut_slices = 0.5;
 constexpr double kSlope_mm = 18;
 constexpr double kSteepest_mm = 2 * kSlope_mm;
 /// A beam that runs closer along the skin than this faces none.
-constexpr double kLeastFacing = 0.5;
+constexpr double kMinFacing = 0.5;
 
 /// Returns the smallest rotation that takes one unit vector to another.
 glm::dmat3 turn_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -159,10 +159,10 @@ std::optional<ProbeHand::Slide> ProbeHand::slide_to(const Pose& from, const Pose
 }
 
 glm::dvec2 ProbeHand::slide_in_patient(const Pose& from, const glm::dvec2& mm) {
-  constexpr double kLeastSine = 0.3;  // of the angle between beam and body's axis: 17 degrees
+  constexpr double kMinSine = 0.3;  // of the angle between beam and body's axis: 17 degrees
   const glm::dvec3 left(1, 0, 0), head(0, 0, 1), beam = from.rotation[1];
   glm::dvec3 around = glm::cross(beam, head), up(0);
-  if (const double sine = glm::length(around); sine > kLeastSine) {
+  if (const double sine = glm::length(around); sine > kMinSine) {
     around /= sine;
     up = glm::cross(around, beam);  // the direction of `head` along the face
   } else {
@@ -193,7 +193,7 @@ std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, cons
   if (!met) return std::nullopt;
   const glm::dvec3 normal = inward(*met).value_or(direction);
   const auto old = contact(from);
-  if (!old || glm::dot(old->inward, from.rotation[1]) < kLeastFacing)
+  if (!old || glm::dot(old->inward, from.rotation[1]) < kMinFacing)
     return Pose{orthonormal(turn_between(from.rotation[1], normal) * from.rotation), *met};
   Pose to = settle(from, *old, {*met, normal});
   const double pressed = glm::dot(to.translation - *met, to.rotation[1]);

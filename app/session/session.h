@@ -55,7 +55,7 @@ public:
   /// passes through. Throws ScenarioError or InputError if the scenario does not fit the case. Throws InputError if
   /// there is an exam and the tracker loops, because the score of such a log cannot be reproduced.
   /// @param predict_s  the longest time by which a live tracker's pose is extrapolated to the time of the picture
-  Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open, double predict_s = PoseHistory::kPredictS,
+  Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open, double predict_s = PoseHistory::kPredict_s,
           ExamRules rules = ExamRules::open);
 
   /// Processes the samples of the active source up to `now_s` (s, steady_now_s() with a live tracker).
@@ -133,7 +133,7 @@ public:
   /// Returns the time since the last usable pose (s) once it exceeds kStale_s; empty before. The picture stands still
   /// then.
   std::optional<double> lost_for_s() const;
-  static constexpr double kStale_s = 0.25;
+  static constexpr double kStale_s = PoseHistory::kStale_s;
 
   /// Returns the samples of the last advance(), from the source that was active then.
   const std::vector<ProbeSample>& latest_samples() const { return samples_; }

@@ -44,7 +44,7 @@ void UndoHistory::watch(const Session& session) {
 void UndoHistory::settle() {
   if (same(latest_, settled_)) return;
   past_.push_back(std::exchange(settled_, latest_));
-  if (past_.size() > kMost) past_.erase(past_.begin());
+  if (past_.size() > kMax) past_.erase(past_.begin());
   future_.clear();
 }
 

@@ -17,7 +17,7 @@ namespace insonate {
 class UndoHistory {
 public:
   static constexpr double kStill_s = 0.4;
-  static constexpr std::size_t kMost = 100;  ///< steps that are remembered
+  static constexpr std::size_t kMax = 100;  ///< steps that are remembered
 
   /// To be called after each Session::advance().
   void watch(const Session& session);

@@ -127,9 +127,9 @@ FolderList list_folder(const fs::path& folder, Wanted wanted) {
     if (a.is_folder != b.is_folder) return a.is_folder;
     return lower(a.path.filename().string()) < lower(b.path.filename().string());
   });
-  if (list.entries.size() > FolderList::kMost) {
-    list.left_out = list.entries.size() - FolderList::kMost;
-    list.entries.resize(FolderList::kMost);
+  if (list.entries.size() > FolderList::kMax) {
+    list.left_out = list.entries.size() - FolderList::kMax;
+    list.entries.resize(FolderList::kMax);
   }
   return list;
 }

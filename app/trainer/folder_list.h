@@ -43,11 +43,11 @@ struct FolderEntry {
 /// The folders and the files of one kind in a folder, for a person who looks for something to open.
 struct FolderList {
   /// A folder with more entries is cut off there: nobody reads on.
-  static constexpr std::size_t kMost = 2000;
+  static constexpr std::size_t kMax = 2000;
 
   std::filesystem::path folder;      ///< absolute
   std::vector<FolderEntry> entries;  ///< folders first, each group in the order of names
-  std::size_t left_out = 0;          ///< entries above kMost
+  std::size_t left_out = 0;          ///< entries above kMax
   bool is_series = false;            ///< the folder itself holds DICOM files: it can be opened as a CT
   std::string problem;               ///< why it cannot be listed; empty if it can
 };

@@ -52,7 +52,7 @@ CLI::Option* add_tracker(CLI::App& mode, Options& options) {
   mode.add_option(
           "--predict", options.predict_ms,
           "Predict a live tracker's pose at the time of the picture, at most this far ahead, ms; 0 turns it off")
-      ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredictS))
+      ->check(CLI::Range(0.0, 1e3 * PoseHistory::kPredict_s))
       ->capture_default_str();
   mode.add_option("--latency", options.latency,
                   "Write a histogram of the time from a live tracker's reports to the picture (CSV)")

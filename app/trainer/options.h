@@ -37,12 +37,12 @@ struct Options {
   std::optional<std::uint32_t> seed;  ///< draws the scenario's variant; empty: 0, in an exam a random one
 
   // The tracker
-  std::string tracker;                               ///< a tracker's URI
-  std::filesystem::path calibration;                 ///< of that tracker; empty: its samples are the probe's poses
-  double calibration_days = kCalibrationDays;        ///< an older calibration brings a warning, days
-  std::filesystem::path landmarks;                   ///< of the patient, for the set-up
-  std::filesystem::path drawing;                     ///< of the probe, for the set-up; empty: its face is touched
-  double predict_ms = 1e3 * PoseHistory::kPredictS;  ///< how far ahead a live tracker's pose is predicted, at most
+  std::string tracker;                                ///< a tracker's URI
+  std::filesystem::path calibration;                  ///< of that tracker; empty: its samples are the probe's poses
+  double calibration_days = kCalibrationDays;         ///< an older calibration brings a warning, days
+  std::filesystem::path landmarks;                    ///< of the patient, for the set-up
+  std::filesystem::path drawing;                      ///< of the probe, for the set-up; empty: its face is touched
+  double predict_ms = 1e3 * PoseHistory::kPredict_s;  ///< how far ahead a live tracker's pose is predicted, at most
 
   // What is written
   std::filesystem::path record;      ///< a sequence file of the run; empty: none

@@ -57,9 +57,9 @@ Preferences read_preferences(const fs::path& file) {
   read.look.layout = choice<LayoutName>(table, "layout", {kLayoutNames.begin(), kLayoutNames.end()});
   read.look.landmarks = table.boolean("landmarks", read.look.landmarks);
   read.ct.grey.window_hu =
-      table.number("ct_window", {WindowLevel::kLeastWindow, WindowLevel::kMostWindow}, read.ct.grey.window_hu);
+      table.number("ct_window", {WindowLevel::kMinWindow, WindowLevel::kMaxWindow}, read.ct.grey.window_hu);
   read.ct.grey.level_hu =
-      table.number("ct_level", {WindowLevel::kLeastLevel, WindowLevel::kMostLevel}, read.ct.grey.level_hu);
+      table.number("ct_level", {WindowLevel::kMinLevel, WindowLevel::kMaxLevel}, read.ct.grey.level_hu);
   read.ct.outlines = table.boolean("ct_outlines", read.ct.outlines);
   read.ct.blend_colour = choice<BlendColour>(table, "blend_colour", kBlendColours);
   read.ct.cross_hair = choice<CrossHair>(table, "cross_hair", kCrossHairs);
@@ -72,7 +72,7 @@ Preferences read_preferences(const fs::path& file) {
   read.out = table.text("out", "");
   read.cases = table.text("cases", "");
   read.results = table.text("results", "");
-  const std::vector<std::string> patients = table.texts("patients", 0, Preferences::kMostPatients);
+  const std::vector<std::string> patients = table.texts("patients", 0, Preferences::kMaxPatients);
   read.patients.assign(patients.begin(), patients.end());
   read.network_tracker = table.text("network_tracker", "");
   table.refuse_unknown_keys();

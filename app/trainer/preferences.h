@@ -21,7 +21,7 @@ struct Preferences {
   std::filesystem::path results;                     ///< the database; empty: the user's own
 
   // What the person used last, and the start page offers again
-  static constexpr std::size_t kMostPatients = 8;
+  static constexpr std::size_t kMaxPatients = 8;
   std::vector<std::filesystem::path> patients;  ///< CTs and case folders, the newest last
   std::string network_tracker;                  ///< URI; empty: none
 

@@ -46,7 +46,7 @@ std::string patient_of(const CaseSource& source) {
 
 /// Every CT of a patient has air around the body. Labels, or images whose values are not Hounsfield units, have none.
 bool has_air(const Volume<std::int16_t>& ct) {
-  return std::any_of(ct.voxels.begin(), ct.voxels.end(), [](std::int16_t hu) { return hu < kSkinHu; });
+  return std::any_of(ct.voxels.begin(), ct.voxels.end(), [](std::int16_t hu) { return hu < kSkin_hu; });
 }
 
 gl::ShaderSources shaders_of(const Options& options) {

@@ -69,7 +69,7 @@ void Trainer::remember(const StartPage& page) {
     if (std::ranges::find(kept, std::filesystem::absolute(opened)) == kept.end()) append(opened);
   const bool is_used = page.task == Task::patients && page.patient < page.patients().size();
   if (is_used && page.patients()[page.patient].opened) append(path_of(page.patients()[page.patient].source));
-  if (kept.size() > Preferences::kMostPatients) kept.erase(kept.begin(), kept.end() - Preferences::kMostPatients);
+  if (kept.size() > Preferences::kMaxPatients) kept.erase(kept.begin(), kept.end() - Preferences::kMaxPatients);
   if (can_be_kept(page.network_tracker())) preferences_.network_tracker = page.network_tracker();
   if (before != preferences_) keep_preferences();
 }

@@ -15,11 +15,11 @@
 namespace insonate {
 namespace {
 
-constexpr double kNeverDeg = 180;
+constexpr double kNever_deg = 180;
 /// Tolerance for the straightness and the right angles of moves by hand.
-constexpr double kMostOffSquareDeg = 35;
+constexpr double kMaxOffSquare_deg = 35;
 /// Among combinations within this of the best misfit, the one with the fewest sign changes is chosen.
-constexpr double kAsGoodDeg = 8;
+constexpr double kAsGood_deg = 8;
 
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
@@ -36,7 +36,7 @@ glm::dvec3 seen(const StraightMove& move, const AxisSigns& signs, const glm::dve
 
 double misfit_deg(const AxesMoves& moves, const AxisSigns& signs) {
   const glm::dvec3 right = way(moves.right, signs), up = way(moves.up, signs), head = way(moves.to_head, signs);
-  if (glm::dot(glm::cross(right, up), head) <= 0) return kNeverDeg;
+  if (glm::dot(glm::cross(right, up), head) <= 0) return kNever_deg;
   const glm::dvec3 marker = seen(moves.right, signs, right);
   return std::max({angle_deg(marker, seen(moves.to_head, signs, head)),
                    angle_deg(marker, seen(moves.lying, signs, way(moves.lying, signs))),
@@ -66,7 +66,7 @@ std::optional<Refusal> why_unusable(const AxesMoves& moves) {
                                                                {"up with the marker up", &moves.lying}};
   for (const auto& [name, move] : named) {
     const double mm = glm::distance(move->from.translation, move->to.translation);
-    if (mm >= kLeastMoveMm) continue;
+    if (mm >= kMinMove_mm) continue;
     std::snprintf(text, sizeof text, "The move %s was %.0f mm long; move 100 mm or more.", name, mm);
     return Refusal{text};
   }
@@ -76,7 +76,7 @@ std::optional<Refusal> why_unusable(const AxesMoves& moves) {
                    head = way(moves.to_head, as_they_are), lying = way(moves.lying, as_they_are);
   const double worst = std::max({std::abs(90 - angle_deg(right, up)), std::abs(90 - angle_deg(up, head)),
                                  std::abs(90 - angle_deg(right, head)), angle_deg(up, lying)});
-  if (worst <= kMostOffSquareDeg) return std::nullopt;
+  if (worst <= kMaxOffSquare_deg) return std::nullopt;
   std::snprintf(
       text, sizeof text,
       "Right, up and to the head were not at right angles, by %.0f degrees; move straight along each and begin "
@@ -116,12 +116,12 @@ std::string AxisSigns::words() const {
 Outcome<AxesFinding> check_axes(const AxesMoves& moves) {
   if (const auto refusal = why_unusable(moves)) return *refusal;
   const double as_it_is = misfit_deg(moves, {});
-  if (as_it_is <= kMostAxesMisfitDeg) return AxesFinding{{}, as_it_is};
+  if (as_it_is <= kMaxAxesMisfit_deg) return AxesFinding{{}, as_it_is};
   std::vector<AxesFinding> findings;
   for (const AxisSigns& signs : possibilities()) findings.push_back({signs, misfit_deg(moves, signs)});
   const auto by_misfit = [](const AxesFinding& a, const AxesFinding& b) { return a.misfit_deg < b.misfit_deg; };
   const double least = std::min_element(findings.begin(), findings.end(), by_misfit)->misfit_deg;
-  if (least > kMostAxesMisfitDeg) {
+  if (least > kMaxAxesMisfit_deg) {
     char text[200];
     std::snprintf(
         text, sizeof text,
@@ -130,7 +130,7 @@ Outcome<AxesFinding> check_axes(const AxesMoves& moves) {
         least);
     return Refusal{text};
   }
-  std::erase_if(findings, [&](const AxesFinding& finding) { return finding.misfit_deg > least + kAsGoodDeg; });
+  std::erase_if(findings, [&](const AxesFinding& finding) { return finding.misfit_deg > least + kAsGood_deg; });
   return *std::min_element(findings.begin(), findings.end(), [](const AxesFinding& a, const AxesFinding& b) {
     return std::pair(changes(a.signs), a.misfit_deg) < std::pair(changes(b.signs), b.misfit_deg);
   });

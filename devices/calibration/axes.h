@@ -10,7 +10,7 @@
 namespace insonate {
 
 /// Sign changes that make a tracker's poses move as a hand does: +1 or -1 for each coordinate of the position and for
-/// each of the quaternion's x, y and z. Public drivers of one device disagree on such signs (DEVICES).
+/// each of the quaternion's x, y and z. Public drivers of one device disagree on such signs.
 struct AxisSigns {
   glm::dvec3 position{1};
   glm::dvec3 quaternion{1};
@@ -44,8 +44,8 @@ struct AxesFinding {
   double misfit_deg = 0;
 };
 
-inline constexpr double kLeastMoveMm = 50;
-inline constexpr double kMostAxesMisfitDeg = 30;
+inline constexpr double kMinMove_mm = 50;
+inline constexpr double kMaxAxesMisfit_deg = 30;
 
 /// Finds the signs that make the four moves agree, by comparing all 40 combinations: the position's coordinates one at
 /// a time or all together, as a hemisphere jump leaves them, and the quaternion's in any combination. If the moves

@@ -26,7 +26,7 @@ struct TrackerIdentity {
 };
 
 /// The largest file of a set-up: a calibration, landmarks or a drawing.
-inline constexpr std::size_t kMostSetupBytes = 1u << 20;
+inline constexpr std::size_t kMaxSetupBytes = 1u << 20;
 
 /// A result of a set-up step and the time when it was made, in seconds since 1970 (UTC).
 template <typename T>

@@ -17,7 +17,7 @@ namespace insonate {
 namespace {
 
 /// As many as a Viper has.
-constexpr int kMostSensors = 16;
+constexpr int kMaxSensors = 16;
 
 /// The keys of each section are listed once, in fields() below. A Reader and a Writer traverse them.
 
@@ -32,8 +32,8 @@ template <typename Io>
 void fields(Io& io, TipFit& tip) {
   io.point("tip_mm", tip.tip_mm);
   io.point("pivot_mm", tip.pivot_mm);
-  io.number("residual_mm", tip.residual_mm, 0, kTrackerRangeMm);
-  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kTrackerRangeMm);
+  io.number("residual_mm", tip.residual_mm, 0, kTrackerRange_mm);
+  io.number("tip_sd_mm", tip.tip_sd_mm, 0, kTrackerRange_mm);
   io.number("spread_deg", tip.spread_deg, 0, 90);
   io.count("used", tip.used);
   io.count("rejected", tip.rejected);
@@ -44,13 +44,13 @@ void fields(Io& io, FaceSetup& face) {
   io.text("method", face.method);
   io.pose("sensor_from_face", face.fit.sensor_from_face);
   io.number("skew_deg", face.fit.skew_deg, 0, 90);
-  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kTrackerRangeMm);
-  io.number("tip_off_mm", face.tip_off_mm, 0, kTrackerRangeMm);
+  io.number("off_middle_mm", face.fit.off_middle_mm, 0, kTrackerRange_mm);
+  io.number("tip_off_mm", face.tip_off_mm, 0, kTrackerRange_mm);
 }
 
 template <typename Io>
 void fields(Io& io, KnockLag& lag) {
-  io.number("lag_s", lag.lag_s, kLeastLagS, kMostLagS);
+  io.number("lag_s", lag.lag_s, kMinLag_s, kMaxLag_s);
   io.number("spread_s", lag.spread_s, 0, 1);
   io.count("knocks", lag.knocks);
 }
@@ -68,10 +68,10 @@ void fields(Io& io, MannequinSetup& mannequin) {
   io.text("patient", mannequin.patient);
   io.pose("ct_from_mannequin", mannequin.ct_from_mannequin);
   io.pose("mannequin_from_tracker", mannequin.mannequin_from_tracker);
-  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kTrackerRangeMm);
-  io.number("residual_mm", mannequin.residual_mm, 0, kTrackerRangeMm);
+  io.number("accuracy_mm", mannequin.accuracy_mm, 0, kTrackerRange_mm);
+  io.number("residual_mm", mannequin.residual_mm, 0, kTrackerRange_mm);
   io.text("worst", mannequin.worst);
-  io.number("worst_mm", mannequin.worst_mm, 0, kTrackerRangeMm);
+  io.number("worst_mm", mannequin.worst_mm, 0, kTrackerRange_mm);
   io.landmarks("landmark", mannequin.landmarks);
 }
 
@@ -128,7 +128,7 @@ public:
   }
   void point(const char* key, glm::dvec3& point) {
     point = table_.vector(key);
-    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(kTrackerRangeMm))))
+    if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(kTrackerRange_mm))))
       table_.fail(key, "the point lies beyond any tracker's reach", "calibrate again");
   }
   void pose(const char* key, Pose& pose) {
@@ -141,9 +141,9 @@ public:
   }
   void landmarks(const char* key, std::vector<LandmarkPair>& landmarks) {
     for (const TomlTable& table : table_.tables(key)) landmarks.push_back(read<LandmarkPair>(table));
-    if (landmarks.size() <= kLeastLandmarks)
+    if (landmarks.size() <= kMinLandmarks)
       table_.fail(key, "there are " + std::to_string(landmarks.size()) + " landmarks",
-                  "touch " + std::to_string(kLeastLandmarks + 1) + " or more");
+                  "touch " + std::to_string(kMinLandmarks + 1) + " or more");
   }
 
   template <typename T>
@@ -192,7 +192,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
   const TomlTable tracker = top.table("tracker");
   calibration.tracker.kind = tracker.text("kind");
   calibration.tracker.serial = tracker.text("serial", "");
-  calibration.tracker.sensor = int(tracker.whole_number("sensor", 1, kMostSensors, 1));
+  calibration.tracker.sensor = int(tracker.whole_number("sensor", 1, kMaxSensors, 1));
   read_section(top, "axes", calibration.axes);
   read_section(top, "tip", calibration.tip);
   read_section(top, "face", calibration.face);
@@ -209,7 +209,7 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
 }
 
 Calibration read_calibration(const std::filesystem::path& file) {
-  return parse_calibration(read_file(file, kMostSetupBytes), file.string());
+  return parse_calibration(read_file(file, kMaxSetupBytes), file.string());
 }
 
 Calibration read_complete_calibration(const std::filesystem::path& file) {

@@ -11,9 +11,9 @@ namespace insonate {
 
 Outcome<FaceFit> fit_face(const FacePoints& points) {
   const glm::dvec3 along = points.marker_end - points.other_end, ahead = points.middle - points.tail;
-  if (!(glm::length(along) >= kLeastFaceMm))
+  if (!(glm::length(along) >= kMinFace_mm))
     return Refusal{"The ends of the face lie in one place; give the end at the marker and the one across from it."};
-  if (!(glm::length(ahead) >= kLeastHandleMm))
+  if (!(glm::length(ahead) >= kMinHandle_mm))
     return Refusal{
         "The probe's tail lies too near to its face; give the far end of the handle, where the cable leaves."};
   FaceFit fit;
@@ -21,13 +21,13 @@ Outcome<FaceFit> fit_face(const FacePoints& points) {
   fit.skew_deg = glm::degrees(std::asin(std::clamp(std::abs(glm::dot(across, y)), 0.0, 1.0)));
   fit.off_middle_mm = std::abs(glm::dot(points.middle - (points.marker_end + points.other_end) / 2.0, across));
   char text[200];
-  if (fit.skew_deg > kMostSkewDeg) {
+  if (fit.skew_deg > kMaxSkew_deg) {
     std::snprintf(text, sizeof text,
                   "Face and handle miss the right angle by %.0f degrees; give the ends of the face and the tail again.",
                   fit.skew_deg);
     return Refusal{text};
   }
-  if (fit.off_middle_mm > kMostOffMiddleMm) {
+  if (fit.off_middle_mm > kMaxOffMiddle_mm) {
     std::snprintf(text, sizeof text,
                   "The face's middle lies %.1f mm away from between its ends; give middle and ends again.",
                   fit.off_middle_mm);

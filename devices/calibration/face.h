@@ -24,8 +24,8 @@ struct FaceFit {
   double off_middle_mm = 0;  ///< distance of the middle from the midpoint of the ends, along the face
 };
 
-inline constexpr double kMostSkewDeg = 10, kMostOffMiddleMm = 5;
-inline constexpr double kLeastFaceMm = 8, kLeastHandleMm = 40;
+inline constexpr double kMaxSkew_deg = 10, kMaxOffMiddle_mm = 5;
+inline constexpr double kMinFace_mm = 8, kMinHandle_mm = 40;
 
 /// Computes the frame of the face. +y runs from the tail to the middle, because that is the longer and so the more
 /// accurate distance. +x runs from the other end to the marker's, made perpendicular to +y. Refused if points are too

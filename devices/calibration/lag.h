@@ -28,12 +28,12 @@ struct KnockLag {
   std::size_t knocks = 0;
 };
 
-inline constexpr double kLeastLagS = -0.1, kMostLagS = 0.5;
-inline constexpr double kLeastCorrelation = 0.3;
-inline constexpr std::size_t kLeastKnocks = 8;
+inline constexpr double kMinLag_s = -0.1, kMaxLag_s = 0.5;
+inline constexpr double kMinCorrelation = 0.3;
+inline constexpr std::size_t kMinKnocks = 8;
 
 /// Returns the lag of `late` behind `early`: two signals of the same kind and step on one clock, such as the speeds of
-/// two sensors on one hand. The lag is the peak of their normalised cross-correlation from kLeastLagS to kMostLagS,
+/// two sensors on one hand. The lag is the peak of their normalised cross-correlation from kMinLag_s to kMaxLag_s,
 /// refined by a parabola. Refused if the correlation is too weak, or if another lag explains them almost as well, as
 /// with a steady rhythm. Throws std::invalid_argument if the steps differ.
 Outcome<LagFit> lag_between(const Signal& late, const Signal& early);
@@ -46,7 +46,7 @@ Signal stopping_of(std::span<const SensorSample> samples);
 /// tracker) with the probe itself, several times in an uneven rhythm. The times of the key are compared with the times
 /// at which the tracker shows that the probe stops, both on the tracker's clock. The result is the time from the knock
 /// to the sample's time stamp, less the delay of the keyboard (5 to 20 ms). It does not include the delay of drawing or
-/// of the screen. Refused with fewer than kLeastKnocks, or where lag_between() refuses.
+/// of the screen. Refused with fewer than kMinKnocks, or where lag_between() refuses.
 Outcome<KnockLag> knock_lag(std::span<const SensorSample> samples, std::span<const double> key_times_s);
 
 }  // namespace insonate

@@ -55,7 +55,7 @@ RigidFit fit_rigid(const Points& from, const Points& to) {
 /// RMS distances from the best-fitting line and plane.
 struct Spread {
   double off_line_mm, off_plane_mm;
-  bool enough() const { return off_line_mm >= kLeastOffLineMm && off_plane_mm >= kLeastOffPlaneMm; }
+  bool enough() const { return off_line_mm >= kMinOffLine_mm && off_plane_mm >= kMinOffPlane_mm; }
 };
 
 Spread spread_of(const Points& points) {
@@ -107,10 +107,10 @@ Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs) {
   std::vector<const LandmarkPair*> fitted, held_out;
   for (const LandmarkPair& pair : pairs) (pair.held_out ? held_out : fitted).push_back(&pair);
   char text[240];
-  if (fitted.size() < kLeastLandmarks || held_out.empty()) {
+  if (fitted.size() < kMinLandmarks || held_out.empty()) {
     std::snprintf(text, sizeof text,
                   "There are %zu landmarks to fit and %zu to check; touch %zu or more, and one more that is held out.",
-                  fitted.size(), held_out.size(), kLeastLandmarks);
+                  fitted.size(), held_out.size(), kMinLandmarks);
     return Refusal{text};
   }
   const Points touched = places(fitted, &LandmarkPair::touched_mm), ct = places(fitted, &LandmarkPair::ct_mm);
@@ -118,7 +118,7 @@ Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs) {
   for (const Points& points : {touched, ct}) {
     const Spread spread = spread_of(points);
     if (spread.enough()) continue;
-    const bool line = spread.off_line_mm < kLeastOffLineMm;
+    const bool line = spread.off_line_mm < kMinOffLine_mm;
     std::snprintf(
         text, sizeof text,
         "The landmarks lie within %.0f mm of a %s, RMS; take some from the front, both sides, top and bottom.",
@@ -135,7 +135,7 @@ Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs) {
     return Refusal{
         "The landmarks fit the mirrored patient; see whether left and right were exchanged, and whether the "
         "axes were checked."};
-  if (found.residual_mm > kMostLandmarkResidualMm) {
+  if (found.residual_mm > kMaxLandmarkResidual_mm) {
     std::snprintf(
         text, sizeof text,
         "The landmarks miss the CT's by %.0f mm, and %s by %.0f; see whether they were touched in the order that "

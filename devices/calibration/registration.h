@@ -34,16 +34,16 @@ struct Registration {
   double worst_mm = 0;
 };
 
-inline constexpr std::size_t kLeastLandmarks = 6;  ///< fitted landmarks; at least one more is held out
+inline constexpr std::size_t kMinLandmarks = 6;  ///< fitted landmarks; at least one more is held out
 /// Smallest RMS distance of the landmarks from their best-fitting line and plane.
-inline constexpr double kLeastOffLineMm = 30, kLeastOffPlaneMm = 10;
+inline constexpr double kMinOffLine_mm = 30, kMinOffPlane_mm = 10;
 /// RMS. Body shapes differ by 20 mm; an error of twice that means that a landmark was mistaken for another.
-inline constexpr double kMostLandmarkResidualMm = 40;
+inline constexpr double kMaxLandmarkResidual_mm = 40;
 
 /// Fits a rigid motion to pairs of landmarks: the least squares solution by unit quaternions (Horn, J. Opt. Soc. Am. A
 /// 4, 1987; the same as that of Kabsch, Acta Cryst. A32, 1976), with the scale fixed at 1. With a localisation error of
 /// 2 mm, the error at a target among 6 landmarks is 1.0 to 1.2 mm, and among 8 it is 0.9 to 1.0 mm (Fitzpatrick, West
-/// and Maurer, IEEE TMI 17, 1998). Refused with fewer than kLeastLandmarks to fit or none held out, or if the landmarks
+/// and Maurer, IEEE TMI 17, 1998). Refused with fewer than kMinLandmarks to fit or none held out, or if the landmarks
 /// lie near a line or a plane. Also refused if a mirrored body fits better, or if the residual shows that landmarks
 /// were mixed up.
 Outcome<Registration> register_landmarks(std::span<const LandmarkPair> pairs);

@@ -11,11 +11,11 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kMostLandmarks = 64;
+constexpr std::size_t kMaxLandmarks = 64;
 
 glm::dvec3 read_point(const TomlTable& table, const char* key) {
   const glm::dvec3 point = table.vector(key);
-  if (!(glm::length(point) <= kTrackerRangeMm))
+  if (!(glm::length(point) <= kTrackerRange_mm))
     table.fail(key, "the point lies 100 m away or farther", "give it in mm");
   return point;
 }
@@ -23,7 +23,7 @@ glm::dvec3 read_point(const TomlTable& table, const char* key) {
 }  // namespace
 
 LandmarkList read_landmark_list(const std::filesystem::path& file) {
-  const TomlDocument document(file.string(), read_file(file, kMostSetupBytes));
+  const TomlDocument document(file.string(), read_file(file, kMaxSetupBytes));
   const TomlTable top = document.root();
   LandmarkList list{top.text("patient"), {}};
   std::set<std::string> names;
@@ -36,17 +36,17 @@ LandmarkList read_landmark_list(const std::filesystem::path& file) {
   }
   top.refuse_unknown_keys();
   const std::size_t fitted = list.landmarks.size() - held_out;
-  if (fitted < kLeastLandmarks || held_out == 0 || list.landmarks.size() > kMostLandmarks)
+  if (fitted < kMinLandmarks || held_out == 0 || list.landmarks.size() > kMaxLandmarks)
     top.fail(
         "",
         "there are " + std::to_string(fitted) + " landmarks to fit and " + std::to_string(held_out) + " to check by",
-        "give " + std::to_string(kLeastLandmarks) + " to " + std::to_string(kMostLandmarks - 1) +
+        "give " + std::to_string(kMinLandmarks) + " to " + std::to_string(kMaxLandmarks - 1) +
             ", and one or more with held_out = true");
   return list;
 }
 
 ProbeDrawing read_probe_drawing(const std::filesystem::path& file) {
-  const TomlDocument document(file.string(), read_file(file, kMostSetupBytes));
+  const TomlDocument document(file.string(), read_file(file, kMaxSetupBytes));
   const TomlTable top = document.root();
   ProbeDrawing drawing;
   drawing.name = top.text("name");
@@ -66,7 +66,7 @@ Outcome<FaceSetup> face_from_drawing(const ProbeDrawing& drawing, const std::opt
   const glm::dvec3 off = tip->tip_mm - *drawing.tip_mm;
   face.tip_off_mm = glm::length(off);
   face.fit.sensor_from_face.translation += off;
-  if (face.tip_off_mm <= kMostTipOffMm) return face;
+  if (face.tip_off_mm <= kMaxTipOff_mm) return face;
   char text[200];
   std::snprintf(
       text, sizeof text,

@@ -19,7 +19,7 @@ struct LandmarkList {
 
 /// Reads a TOML file with `patient`, and for each landmark `[[landmark]]` with `name`, `ct_mm` (LPS) and `held_out`
 /// (true for those that check the fit). assets/calibration/abdomen.toml is the built-in patient's. Throws InputError,
-/// also if there are fewer than kLeastLandmarks to fit, none to check, or more than 64, or if two have the same name.
+/// also if there are fewer than kMinLandmarks to fit, none to check, or more than 64, or if two have the same name.
 LandmarkList read_landmark_list(const std::filesystem::path& file);
 
 /// The probe's drawing in the frame of the sensor's mount, whose axes are those of the sensor maker's drawing.
@@ -35,11 +35,11 @@ ProbeDrawing read_probe_drawing(const std::filesystem::path& file);
 
 /// Largest distance from the drawing's tip to the one found by pivoting. A larger distance means another mount or other
 /// axes.
-inline constexpr double kMostTipOffMm = 10;
+inline constexpr double kMaxTipOff_mm = 10;
 
 /// Returns the face from the drawing. If a tip was both drawn and found by pivoting, the face is shifted by their
 /// difference, because a glued sensor is usually aligned better than it is positioned. Refused if the difference is
-/// above kMostTipOffMm, or where fit_face() refuses.
+/// above kMaxTipOff_mm, or where fit_face() refuses.
 Outcome<FaceSetup> face_from_drawing(const ProbeDrawing& drawing, const std::optional<TipFit>& tip);
 
 }  // namespace insonate

@@ -14,13 +14,13 @@ struct StillPoint {
   double wander_mm = 0;  ///< RMS distance of the single readings from the mean: noise of the tracker and of the hand
 };
 
-/// A hand that rests on something stays within 1 mm; magnetic trackers add 0.3 mm (DEVICES). At twice that the point
+/// A hand that rests on something stays within 1 mm; magnetic trackers add up to 0.3 mm. At twice that the point
 /// has moved.
-inline constexpr double kMostWanderMm = 2.5;
-inline constexpr std::size_t kLeastStillReadings = 10;
+inline constexpr double kMaxWander_mm = 2.5;
+inline constexpr std::size_t kMinStillReadings = 10;
 
-/// Returns the mean of readings (mm, any frame) of a point at rest. Refused with fewer than kLeastStillReadings, or if
-/// they wander by more than kMostWanderMm.
+/// Returns the mean of readings (mm, any frame) of a point at rest. Refused with fewer than kMinStillReadings, or if
+/// they wander by more than kMaxWander_mm.
 Outcome<StillPoint> still_point(std::span<const glm::dvec3> readings_mm);
 
 }  // namespace insonate

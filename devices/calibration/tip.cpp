@@ -74,7 +74,7 @@ PivotFit least_median(std::span<const Pose> poses, double& least_mm) {
     for (std::uint32_t i = 0; i < 3; ++i) three[i] = poses[hash(trial, i) % poses.size()];
     const PivotFit fit = least_squares(three);
     // Three poses close together determine nothing, and could win among other such triples.
-    if (degrees_of(fit.least_turn) < kLeastPivotSpreadDeg / 2) continue;
+    if (degrees_of(fit.least_turn) < kMinPivotSpread_deg / 2) continue;
     distances.clear();
     for (std::size_t i = 0; i < poses.size(); i += stride) distances.push_back(distance_mm(fit, poses[i]));
     const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
@@ -92,7 +92,7 @@ Refusal turned_too_little(double deg) {
       text, sizeof text,
       "The probe was turned by %.0f %% of what is needed; tilt it by %d degrees to all sides and turn it about "
       "its length as well.",
-      std::floor(100 * deg / kLeastPivotSpreadDeg), kPivotTiltDeg);
+      std::floor(100 * deg / kMinPivotSpread_deg), kPivotTilt_deg);
   return {text};
 }
 
@@ -103,11 +103,11 @@ double pivot_spread_deg(std::span<const Pose> tracker_from_sensor) {
 }
 
 Outcome<TipFit> fit_tip(std::span<const Pose> poses) {
-  if (poses.size() < kLeastPivotPoses)
+  if (poses.size() < kMinPivotPoses)
     return Refusal{"Only " + std::to_string(poses.size()) +
                    " poses came; pivot for ten seconds where the tracker sees the sensor."};
   const double spread_deg = pivot_spread_deg(poses);
-  if (spread_deg < kLeastPivotSpreadDeg) return turned_too_little(spread_deg);
+  if (spread_deg < kMinPivotSpread_deg) return turned_too_little(spread_deg);
   double median_mm = 0;
   PivotFit fit = least_median(poses, median_mm);
   if (!std::isfinite(median_mm)) return turned_too_little(spread_deg);
@@ -121,7 +121,7 @@ Outcome<TipFit> fit_tip(std::span<const Pose> poses) {
     kept.clear();
     for (const Pose& pose : poses)
       if (distance_mm(fit, pose) <= limit_mm) kept.push_back(pose);
-    if (kept.size() < kLeastPivotPoses / 2) break;
+    if (kept.size() < kMinPivotPoses / 2) break;
     fit = least_squares(kept);
     double squares = 0;
     for (const Pose& pose : kept) squares += std::pow(distance_mm(fit, pose), 2);
@@ -136,15 +136,15 @@ Outcome<TipFit> fit_tip(std::span<const Pose> poses) {
   found.residual_mm = std::sqrt(3.0) * sigma_mm;
   found.spread_deg = degrees_of(fit.least_turn);
   char text[200];
-  if (double(found.rejected) > kMostPivotRejected * double(poses.size())) {
+  if (double(found.rejected) > kMaxPivotRejected * double(poses.size())) {
     std::snprintf(
         text, sizeof text,
         "%.0f %% of the poses put the tip elsewhere; keep it in the dimple, away from metal, and pivot again.",
         100 * double(found.rejected) / double(poses.size()));
     return Refusal{text};
   }
-  if (found.spread_deg < kLeastPivotSpreadDeg) return turned_too_little(found.spread_deg);
-  if (found.residual_mm > kMostPivotResidualMm) {
+  if (found.spread_deg < kMinPivotSpread_deg) return turned_too_little(found.spread_deg);
+  if (found.residual_mm > kMaxPivotResidual_mm) {
     std::snprintf(text, sizeof text,
                   "The tip strayed by %.1f mm from the dimple; keep it in, away from metal, and pivot again.",
                   found.residual_mm);

@@ -29,22 +29,23 @@ struct TipFit {
 
 /// Below this, noise grows more than sixfold on its way to the tip (tip_sd_mm). Tilting by 14 degrees to all sides
 /// gives 10.
-inline constexpr double kLeastPivotSpreadDeg = 10;
+inline constexpr double kMinPivotSpread_deg = 10;
 /// What a person is asked for. It is more than enough for the least spread, which is a mean over the directions.
-inline constexpr int kPivotTiltDeg = 30;
-inline constexpr std::size_t kLeastPivotPoses = 50;
-/// Static noise of magnetic trackers is 0.08 to 0.3 mm (DEVICES): with ten times that, the tip was not in a dimple.
-inline constexpr double kMostPivotResidualMm = 3;
+inline constexpr int kPivotTilt_deg = 30;
+inline constexpr std::size_t kMinPivotPoses = 50;
+/// Static noise of magnetic trackers is 0.08 to 0.3 mm where no metal is near: with ten times that, the tip was not in
+/// a dimple.
+inline constexpr double kMaxPivotResidual_mm = 3;
 /// A larger fraction of outliers is not accidental.
-inline constexpr double kMostPivotRejected = 0.35;
+inline constexpr double kMaxPivotRejected = 0.35;
 
 /// Returns how far the poses were rotated relative to each other, as TipFit::spread_deg, from 0 to 90; 0 without poses.
 double pivot_spread_deg(std::span<const Pose> tracker_from_sensor);
 
 /// Fits a tip to poses tracker_from_sensor (mm): the least squares solution of R_i tip + p_i = pivot over all i, the
 /// "algebraic one step" of Yaniv, "Which pivot calibration?", SPIE 9415 (2015). Outliers are found by the least median
-/// of squares (Rousseeuw, J. Am. Stat. Assoc. 79, 1984) over subsets of three poses, so up to kMostPivotRejected of the
-/// poses may be arbitrary. Refused with fewer than kLeastPivotPoses, if the rotations do not span enough to determine
+/// of squares (Rousseeuw, J. Am. Stat. Assoc. 79, 1984) over subsets of three poses, so up to kMaxPivotRejected of the
+/// poses may be arbitrary. Refused with fewer than kMinPivotPoses, if the rotations do not span enough to determine
 /// the tip, if too many poses are rejected, or if the residual is too large. The same poses give the same fit, bit for
 /// bit.
 Outcome<TipFit> fit_tip(std::span<const Pose> tracker_from_sensor);

@@ -145,13 +145,13 @@ DistortionFigures measure_distortion(std::uint32_t most_distortion) {
   // Steel near the sensor causes errors up to 100 mm. It is beside the hand's path, and has an effect within a few
   // centimetres.
   const glm::dvec3 steel(345, 50, -80);
-  constexpr double kMost_mm = 100, kReach_mm = 12;
+  constexpr double kMax_mm = 100, kReach_mm = 12;
   const std::vector<ProbeSample> there = noisy(scanning, 60);
   std::vector<ProbeSample> disturbed = there;
   for (std::uint32_t i = 0; i < disturbed.size(); ++i) {
     glm::dvec3& mm = disturbed[i].patient_from_probe.translation;
     const glm::dvec3 to_steel = steel - mm;
-    const double off_mm = kMost_mm * std::exp(-glm::length(to_steel) / kReach_mm);
+    const double off_mm = kMax_mm * std::exp(-glm::length(to_steel) / kReach_mm);
     mm += off_mm * glm::normalize(to_steel);
     // The grade only approximates the error.
     disturbed[i].distortion = std::uint32_t(std::max(0.0, off_mm * (0.75 + 0.5 * uniform(i, 50))));

@@ -7,11 +7,11 @@
 namespace insonate {
 namespace {
 
-/// A velocity predicts the position of a hand for kCarry_s at most (PoseHistory::kPredictS). After kLongestGap_s the
+/// A velocity predicts the position of a hand for kCarry_s at most (PoseHistory::kPredict_s). After kLongestGap_s the
 /// possible distance no longer grows.
 constexpr double kCarry_s = 0.030, kLongestGap_s = 0.250;
 /// Samples from one read have stamps that do not show how quickly they followed each other.
-constexpr double kLeastStep_s = 0.0005;
+constexpr double kMinStep_s = 0.0005;
 
 /// Returns the pose as a tracker reports it in the wrong hemisphere: the position mirrored through its origin.
 Pose mirror_image(const Pose& pose, const glm::dvec3& origin) {
@@ -29,7 +29,7 @@ bool OutlierGate::follows(const Track& track, double time_s, const Pose& pose) c
 
 OutlierGate::Track OutlierGate::carried_on(const Track& track, double time_s, const Pose& pose) {
   const double step_s = time_s - track.time_s;
-  if (step_s < kLeastStep_s) return {time_s, pose, track.mm_per_s};
+  if (step_s < kMinStep_s) return {time_s, pose, track.mm_per_s};
   // A step over a longer gap gives no velocity, and the noise of a single step must not carry far.
   if (step_s > kLongestGap_s) return {time_s, pose};
   glm::dvec3 mm_per_s = (pose.translation - track.pose.translation) / step_s;

@@ -22,8 +22,8 @@ std::vector<Address> ask(const std::string& host, std::uint16_t port) {
   addrinfo* found = nullptr;
   std::vector<Address> addresses;
   if (::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) return addresses;
-  constexpr std::size_t kMost = 8;
-  for (const addrinfo* one = found; one && addresses.size() < kMost; one = one->ai_next) {
+  constexpr std::size_t kMax = 8;
+  for (const addrinfo* one = found; one && addresses.size() < kMax; one = one->ai_next) {
     if (one->ai_addrlen > sizeof(sockaddr_storage)) continue;
     Address& address = addresses.emplace_back();
     std::memcpy(&address.storage, one->ai_addr, one->ai_addrlen);

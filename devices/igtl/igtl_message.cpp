@@ -8,7 +8,7 @@ namespace insonate::igtl {
 namespace {
 
 constexpr std::size_t kTypeBytes = 12, kNameBytes = 20;
-constexpr std::size_t kMostStatusText = 200;
+constexpr std::size_t kMaxStatusText = 200;
 
 constexpr std::array<std::uint64_t, 256> kCrcTable = [] {
   std::array<std::uint64_t, 256> table{};
@@ -78,11 +78,11 @@ Header parse_header(std::span<const std::uint8_t, kHeaderBytes> bytes) {
 std::optional<Parts> parts_of(const Header& header, ByteView body) {
   if (header.version < 2) return Parts{body, {}, {}};
   // u16 size of the extended header, u16 size of the metadata's index, u32 size of the metadata, u32 message number
-  constexpr std::size_t kLeast = 12;
-  if (body.size() < kLeast) return std::nullopt;
+  constexpr std::size_t kMin = 12;
+  if (body.size() < kMin) return std::nullopt;
   const std::size_t extended = number_at<std::uint16_t>(body, 0), index = number_at<std::uint16_t>(body, 2);
   const std::uint64_t values = number_at<std::uint32_t>(body, 4);
-  if (extended < kLeast || extended + index + values > body.size()) return std::nullopt;
+  if (extended < kMin || extended + index + values > body.size()) return std::nullopt;
   const std::size_t content = body.size() - extended - index - std::size_t(values);
   return Parts{body.subspan(extended, content), body.subspan(extended + content, index),
                body.subspan(extended + content + index)};
@@ -91,7 +91,7 @@ std::optional<Parts> parts_of(const Header& header, ByteView body) {
 std::string metadata_value(const Parts& parts, std::string_view key) {
   // u16 count, then for each entry u16 size of the key, u16 encoding, u32 size of the value. Keys and values are stored
   // one after the other.
-  constexpr std::size_t kEntry = 8, kMostText = 64;
+  constexpr std::size_t kEntry = 8, kMaxText = 64;
   const ByteView index = parts.metadata_index;
   std::uint64_t at = 0;
   for (std::size_t entry = 2; entry + kEntry <= index.size(); entry += kEntry) {
@@ -101,7 +101,7 @@ std::string metadata_value(const Parts& parts, std::string_view key) {
     const ByteView found = parts.metadata.subspan(std::size_t(at), std::size_t(key_size));
     const ByteView value = parts.metadata.subspan(std::size_t(at + key_size), std::size_t(value_size));
     if (std::equal(found.begin(), found.end(), key.begin(), key.end()))
-      return text_of(value.first(std::min(value.size(), kMostText)));
+      return text_of(value.first(std::min(value.size(), kMaxText)));
     at += key_size + value_size;
   }
   return {};
@@ -120,7 +120,7 @@ std::optional<Status> parse_status(ByteView content) {
   constexpr std::size_t kText = 30;
   if (content.size() < kText) return std::nullopt;
   const ByteView text = content.subspan(kText);
-  return Status{number_at<std::uint16_t>(content, 0), text_of(text.first(std::min(text.size(), kMostStatusText)))};
+  return Status{number_at<std::uint16_t>(content, 0), text_of(text.first(std::min(text.size(), kMaxStatusText)))};
 }
 
 std::uint64_t stamp_of(double seconds) {
@@ -157,7 +157,7 @@ Bytes make_status(std::string_view name, std::uint64_t stamp, const Status& stat
   put(body, status.code);
   put<std::uint64_t>(body, 0);
   put_text(body, status.code == kStatusOk ? "OK" : "Error", 20);
-  put_text(body, status.text, std::min(status.text.size(), kMostStatusText));
+  put_text(body, status.text, std::min(status.text.size(), kMaxStatusText));
   body.push_back(0);
   return make_message("STATUS", name, stamp, body);
 }

@@ -9,7 +9,7 @@ namespace {
 /// Checks the version among others; a different first pair of bytes belongs to another protocol.
 bool plausible(const Header& header) {
   return header.version >= 1 && header.version <= 3 && !header.type.empty() &&
-         header.body_bytes <= MessageReader::kMostPassed;
+         header.body_bytes <= MessageReader::kMaxPassed;
 }
 
 }  // namespace

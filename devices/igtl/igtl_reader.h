@@ -13,19 +13,19 @@ namespace insonate::igtl {
 class MessageReader {
 public:
   /// Enough for every kind of message with a few numbers or a sentence in it.
-  static constexpr std::uint64_t kMostKept = std::uint64_t(64) * 1024;
+  static constexpr std::uint64_t kMaxKept = std::uint64_t(64) * 1024;
   /// Enough for an image of 1920 x 1080 pixels with four bytes each, twice.
-  static constexpr std::uint64_t kMostKeptWithImages = std::uint64_t(16) * 1024 * 1024;
+  static constexpr std::uint64_t kMaxKeptWithImages = std::uint64_t(16) * 1024 * 1024;
   /// A volume of 512 x 512 x 256 voxels of 16 bits, with room to spare. A larger announced body means that it is not a
   /// message.
-  static constexpr std::uint64_t kMostPassed = 512ull * 1024 * 1024;
+  static constexpr std::uint64_t kMaxPassed = 512ull * 1024 * 1024;
 
   enum class Damage { none, crc, not_igtl };
 
   /// `wanted` returns whether to store a message's body; it sees the headers of bodies that are too large as well.
   /// `take` receives the bodies that arrived undamaged.
   MessageReader(std::function<bool(const Header&)> wanted, std::function<void(const Header&, ByteView)> take,
-                std::uint64_t most_kept = kMostKept)
+                std::uint64_t most_kept = kMaxKept)
       : wanted_(std::move(wanted)), take_(std::move(take)), most_kept_(most_kept) {}
 
   /// Parses the next bytes. Returns not_igtl if the stream cannot be read further, or crc if at least one message was

@@ -46,7 +46,7 @@ struct ServerLimits {
 /// - If clients are in the middle of different messages with more than `sending_bytes` in total, the client that has
 ///   been receiving its message longest is disconnected.
 /// - The server skips what clients send, by the headers. It disconnects a client that sends anything other than
-///   OpenIGTLink, that announces a body of more than MessageReader::kMostPassed, or that is silent for `stuck_s` in the
+///   OpenIGTLink, that announces a body of more than MessageReader::kMaxPassed, or that is silent for `stuck_s` in the
 ///   middle of a message. No memory is allocated by an announced size.
 ///
 ///   Server server(numeric_address("127.0.0.1", 18944), "--igtl-server");

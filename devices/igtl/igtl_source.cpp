@@ -20,7 +20,7 @@
 namespace insonate::igtl {
 namespace {
 
-constexpr std::size_t kMostNames = 6;
+constexpr std::size_t kMaxNames = 6;
 
 /// Returns whether an event happened on the socket within `timeout`.
 bool wait_for(const Socket& socket, short events, std::chrono::milliseconds timeout) {
@@ -65,7 +65,7 @@ void ClientSource::begin(double time_s) {
   reader_ =
       std::make_unique<MessageReader>([this](const Header& header) { return wants(header); },
                                       [this](const Header& header, ByteView body) { take(header, body, *batch_); },
-                                      request_.images ? MessageReader::kMostKeptWithImages : MessageReader::kMostKept);
+                                      request_.images ? MessageReader::kMaxKeptWithImages : MessageReader::kMaxKept);
 }
 
 bool ClientSource::replay_open(const AttachedDevice& device, double time_s) {
@@ -174,7 +174,7 @@ bool ClientSource::wants(const Header& header) {
   if (header.type == "IMAGE" && request_.images) {
     if (image_.empty()) image_ = header.name;
     if (header.name != image_) return false;
-    if (header.body_bytes > MessageReader::kMostKeptWithImages)
+    if (header.body_bytes > MessageReader::kMaxKeptWithImages)
       request_.images->complain("an image of " + where_ + " has more than 16 MiB");
     return true;
   }
@@ -182,7 +182,7 @@ bool ClientSource::wants(const Header& header) {
   if (followed_.empty()) followed_ = header.name;
   if (header.name == followed_) return true;
   const bool known = std::find(others_.begin(), others_.end(), header.name) != others_.end();
-  if (!known && others_.size() < kMostNames) others_.push_back(header.name);
+  if (!known && others_.size() < kMaxNames) others_.push_back(header.name);
   return false;
 }
 

@@ -33,7 +33,7 @@ struct ClientRequest {
 
 /// Receives poses from an OpenIGTLink server: its TRANSFORM messages, and on request its IMAGE messages. read() never
 /// waits longer than its timeout. MessageReader bounds the memory used, whatever the server sends: to
-/// MessageReader::kMostKept, or with images to kMostKeptWithImages. A larger image is a problem that ImageQueue states.
+/// MessageReader::kMaxKept, or with images to kMaxKeptWithImages. A larger image is a problem that ImageQueue states.
 ///
 /// Samples are stamped when their bytes arrive, or with `sender_times` by the stamps of their messages (SenderClock).
 class ClientSource : public RawSource {

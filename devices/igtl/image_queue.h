@@ -15,12 +15,12 @@ namespace insonate::igtl {
 /// are dropped. Both threads hold the lock only to move an image.
 class ImageQueue {
 public:
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMax = 16;
 
   void put(ReceivedImage image) {
     const std::lock_guard lock(mutex_);
     ++received_;
-    if (images_.size() == kMost) images_.pop_front();
+    if (images_.size() == kMax) images_.pop_front();
     images_.push_back(std::move(image));
     problem_.clear();
   }

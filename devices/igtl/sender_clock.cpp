@@ -11,13 +11,13 @@ double SenderClock::time_of(double sent_s, double arrival_s) {
   if (set || difference_s < *offset_s_ - tolerance_s_) {
     offset_s_ = difference_s;
     least_s_ = std::numeric_limits<double>::infinity();
-    window_end_s_ = arrival_s + kWindowS;
+    window_end_s_ = arrival_s + kWindow_s;
   }
   least_s_ = std::min(least_s_, difference_s);
   if (arrival_s >= window_end_s_) {
     if (least_s_ > *offset_s_ + tolerance_s_) offset_s_ = least_s_;
     least_s_ = std::numeric_limits<double>::infinity();
-    window_end_s_ = arrival_s + kWindowS;
+    window_end_s_ = arrival_s + kWindow_s;
   }
   return sent_s + *offset_s_;
 }

@@ -14,7 +14,7 @@ namespace insonate::igtl {
 /// was delayed, or a clock drifts). A difference of more than `most_drift_s` means that a clock was set.
 class SenderClock {
 public:
-  static constexpr double kWindowS = 5;
+  static constexpr double kWindow_s = 5;
 
   explicit SenderClock(double tolerance_s = 0.010, double most_drift_s = 2.0)
       : tolerance_s_(tolerance_s), most_drift_s_(most_drift_s) {}

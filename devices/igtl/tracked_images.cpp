@@ -10,7 +10,7 @@
 namespace insonate::igtl {
 namespace {
 
-constexpr std::size_t kMostWaiting = 32;  // images
+constexpr std::size_t kMaxWaiting = 32;  // images
 
 ClientRequest request_of(const std::string& text, const std::shared_ptr<ImageQueue>& queue) {
   const TrackerUri uri = parse_tracker_uri(text);
@@ -68,7 +68,7 @@ void TrackedImages::poll(double now_s, std::vector<TrackedImage>& images) {
     ReceivedImage& image = waiting_.front();
     // The pose behind an image may arrive after it.
     const bool due = place_ == ImagePlace::by_image || newest_pose_s_ >= image.time_s ||
-                     now_s - image.time_s > kMostWait_s || waiting_.size() > kMostWaiting;
+                     now_s - image.time_s > kMaxWait_s || waiting_.size() > kMaxWaiting;
     if (!due) break;
     TrackedImage placed;
     if (place(image, placed)) {

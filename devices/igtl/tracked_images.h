@@ -37,8 +37,8 @@ enum class ImagePlace {
 class TrackedImages {
 public:
   /// An image that waits longer for the next pose is dropped, s. A pose is not bridged over more than
-  /// PoseHistory::kBridgeS either.
-  static constexpr double kMostWait_s = 0.5;
+  /// PoseHistory::kBridge_s either.
+  static constexpr double kMaxWait_s = 0.5;
   /// A stream without images or without poses is a problem after this long, s.
   static constexpr double kMissing_s = 3;
 

@@ -104,7 +104,7 @@ void DeviceSource::replay_read(Bytes bytes, double time_s, LiveBatch& batch) {
     started_ = true;
     heard_s_ = time_s;
   }
-  if (kind_.steady && time_s - std::max(asked_s_, heard_s_) >= kStartS) {
+  if (kind_.steady && time_s - std::max(asked_s_, heard_s_) >= kStart_s) {
     asked_s_ = time_s;
     ++starts_;
     start(*transport_, device_);
@@ -114,7 +114,7 @@ void DeviceSource::replay_read(Bytes bytes, double time_s, LiveBatch& batch) {
 
 std::string DeviceSource::note(double now_s) {
   const std::string name(kind_.name);
-  if (kind_.steady && now_s - heard_s_ >= kStartS)
+  if (kind_.steady && now_s - heard_s_ >= kStart_s)
     return "The " + name + " is plugged in but sends no poses, and was started " + std::to_string(starts_) +
            " times: unplug it and plug it in again.";
   // Each change would be a new message. So the counts are updated only with the first incident after a pause.
@@ -122,7 +122,7 @@ std::string DeviceSource::note(double now_s) {
     if (problem_.empty())
       problem_ = "Reports of the " + name + " were damaged or lost: " + tally_.incidents_in_words() + " so far.";
     incident_s_ = now_s;
-  } else if (now_s - incident_s_ >= kIncidentShownS) {
+  } else if (now_s - incident_s_ >= kIncidentShown_s) {
     problem_.clear();
   }
   incidents_ = tally_.incidents();

@@ -51,9 +51,9 @@ AttachedDevice find_device(const DeviceKind& kind, const std::string& serial, co
 class DeviceSource : public RawSource {
 public:
   /// A device that was asked to send and is silent for this long is asked again. The Hydra needs this long to start.
-  static constexpr double kStartS = 5;
+  static constexpr double kStart_s = 5;
   /// Users are informed of an incident for this long.
-  static constexpr double kIncidentShownS = 2;
+  static constexpr double kIncidentShown_s = 2;
 
   /// `clock_s` is replaced by the tests.
   DeviceSource(const DeviceKind& kind, std::shared_ptr<DeviceBus> bus, std::string serial,
@@ -73,7 +73,7 @@ protected:
   virtual std::string_view remark() const { return ""; }
 
   /// Sends the commands that make the device send poses. Called after the device was opened, and again whenever it has
-  /// been silent for kStartS. Throws TransportError.
+  /// been silent for kStart_s. Throws TransportError.
   virtual void start(Transport& transport, const AttachedDevice& device) = 0;
 
   /// Sends the commands that stop it. May throw: errors are ignored.

@@ -33,18 +33,18 @@ Pose MouseTracker::pose() const {
 
 void MouseTracker::collect(double now_s, std::vector<ProbeSample>& samples) {
   if (!start_s_) start_s_ = now_s;
-  const auto due = std::uint64_t(std::floor((now_s - *start_s_) * kRateHz)) + 1;
+  const auto due = std::uint64_t(std::floor((now_s - *start_s_) * kRate_hz)) + 1;
   if (due <= next_) return;
   const double share = 1.0 / double(due - next_);
   // In the frame that the probe has now: a probe that is moved and turned at once ends where it was sent.
   const glm::dvec3 step_mm = rotation_ * (pending_mm_ * share);
-  const glm::dquat step_turn = rotation_from_vector(pending_rad_ * share + rad_per_s_ / kRateHz);
+  const glm::dquat step_turn = rotation_from_vector(pending_rad_ * share + rad_per_s_ / kRate_hz);
   pending_mm_ = pending_rad_ = glm::dvec3(0);
   for (; next_ < due; ++next_) {
-    translation_ += step_mm + rotation_ * (mm_per_s_ / kRateHz);
+    translation_ += step_mm + rotation_ * (mm_per_s_ / kRate_hz);
     // A probe at rest keeps its pose bit for bit. Otherwise rounding in normalize() would cause a redraw.
     if (step_turn != glm::dquat(1, 0, 0, 0)) rotation_ = glm::normalize(rotation_ * step_turn);
-    samples.push_back({double(next_) / kRateHz, PoseStatus::ok, pose(), buttons_});
+    samples.push_back({double(next_) / kRate_hz, PoseStatus::ok, pose(), buttons_});
   }
 }
 

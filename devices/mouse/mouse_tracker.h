@@ -20,7 +20,7 @@ namespace insonate {
 /// the window draws at another rate.
 class MouseTracker : public Tracker {
 public:
-  static constexpr double kRateHz = 60.0;
+  static constexpr double kRate_hz = 60.0;
 
   explicit MouseTracker(const Pose& patient_from_probe);
 

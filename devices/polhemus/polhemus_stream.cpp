@@ -12,7 +12,7 @@ constexpr double kMmPerCm = 10;
 
 // Liberty and Patriot.
 constexpr std::size_t kLibertyHeader = 8, kLibertyBody = 40;
-constexpr int kMostStations = 16;
+constexpr int kMaxStations = 16;
 
 // Viper: sizes of the frame's parts before the sensors, per sensor, and after them.
 constexpr std::size_t kViperHeader = 8, kViperInfo = 16, kViperSensor = 32, kViperCrc = 4;
@@ -32,7 +32,7 @@ Front liberty(Bytes bytes, std::vector<PolhemusRecord>& records) {
   if (bytes.size() < kLibertyHeader) return {Front::begun};
   const int station = bytes[2];
   const bool is_pose = bytes[3] == 'C' || bytes[3] == 'P' || bytes[3] == 'c' || bytes[3] == 'p';
-  if (station < 1 || station > kMostStations || !is_pose || u16_at(bytes, 6) != kLibertyBody) return {Front::nothing};
+  if (station < 1 || station > kMaxStations || !is_pose || u16_at(bytes, 6) != kLibertyBody) return {Front::nothing};
   if (bytes.size() < kLibertyHeader + kLibertyBody) return {Front::begun};
 
   PolhemusRecord record;
@@ -65,8 +65,7 @@ SensorReading viper_sensor(Bytes bytes) {
 Front viper_frame(Bytes bytes, std::vector<PolhemusRecord>& records) {
   if (bytes.size() < kViperHeader + kViperInfo) return {Front::begun};
   const std::uint32_t size = u32_at(bytes, 4), sensors = u32_at(bytes, 20);
-  if (sensors > kMostPolhemusSensors || size != kViperInfo + kViperSensor * sensors + kViperCrc)
-    return {Front::nothing};
+  if (sensors > kMaxPolhemusSensors || size != kViperInfo + kViperSensor * sensors + kViperCrc) return {Front::nothing};
   const std::size_t length = kViperHeader + size;
   if (bytes.size() < length) return {Front::begun};
   if (crc16_arc(bytes.first(length - kViperCrc)) != u32_at(bytes, length - kViperCrc)) return {Front::damaged};

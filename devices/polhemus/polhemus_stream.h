@@ -8,7 +8,7 @@
 namespace insonate {
 
 /// As many as a Viper has, more than the others.
-inline constexpr std::uint32_t kMostPolhemusSensors = 16;
+inline constexpr std::uint32_t kMaxPolhemusSensors = 16;
 
 /// A sensor's pose as a Polhemus Patriot, Liberty or Viper sends it.
 struct PolhemusRecord {

@@ -71,7 +71,7 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
     const SensorReading& reading = record.reading;
     if (reading.sensor == sensor_ || !sensor_s_) sensor_s_ = time_s;
     if (reading.sensor != sensor_) {
-      if (reading.sensor < kMostPolhemusSensors) others_ |= 1u << reading.sensor;
+      if (reading.sensor < kMaxPolhemusSensors) others_ |= 1u << reading.sensor;
       continue;
     }
     if (!numbers_.is_new(record.frame, tally)) continue;
@@ -81,13 +81,13 @@ bool PolhemusSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTa
       sample.patient_from_probe = placement_.patient_from_probe(reading.tracker_from_sensor);
     batch.samples.push_back(sample);
   }
-  if (others_ != 0 && time_s - sensor_s_.value_or(time_s) > kSensorMissingS) batch.note = missing_sensor();
+  if (others_ != 0 && time_s - sensor_s_.value_or(time_s) > kSensorMissing_s) batch.note = missing_sensor();
   return !records_.empty();
 }
 
 std::string PolhemusSource::missing_sensor() const {
   std::string others;
-  for (std::uint32_t i = 0; i < kMostPolhemusSensors; ++i)
+  for (std::uint32_t i = 0; i < kMaxPolhemusSensors; ++i)
     if ((others_ >> i & 1) != 0) others += (others.empty() ? "" : ", ") + std::to_string(i + 1);
   const std::string wanted = std::to_string(sensor_ + 1);
   return "The Polhemus tracker sends sensor " + others + " but not sensor " + wanted +
@@ -96,7 +96,7 @@ std::string PolhemusSource::missing_sensor() const {
 
 std::unique_ptr<RawSource> make_polhemus(const TrackerUri& uri, const TrackerContext& context) {
   uri.allow_options({"sensor", "raw"});
-  const auto sensor = std::uint32_t(uri.number("sensor", 1, 1, kMostPolhemusSensors)) - 1;
+  const auto sensor = std::uint32_t(uri.number("sensor", 1, 1, kMaxPolhemusSensors)) - 1;
   return std::make_unique<PolhemusSource>(std::make_shared<UsbBus>(), uri.subject, sensor,
                                           Placement(context.start, uri.flag("raw", false)));
 }

@@ -17,7 +17,7 @@ namespace insonate {
 class PolhemusSource : public MagneticSource {
 public:
   /// Users are informed if the sensor has been missing for this long while others arrive.
-  static constexpr double kSensorMissingS = 2;
+  static constexpr double kSensorMissing_s = 2;
 
   /// `sensor` counts from 0.
   PolhemusSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, std::uint32_t sensor,

@@ -48,8 +48,8 @@ bool is_compressed(const HeaderFields& fields, const std::string& file) {
 
 /// Returns whether the bytes begin like gzip and end with the size of their content (RFC 1952: modulo 2^32).
 bool is_whole_gzip(const CutBytes& data, std::uint64_t raw_bytes) {
-  constexpr std::size_t kLeast = 18;  // header and trailer
-  if (data.size < kLeast || !data.front.starts_with("\x1f\x8b")) return false;
+  constexpr std::size_t kMin = 18;  // header and trailer
+  if (data.size < kMin || !data.front.starts_with("\x1f\x8b")) return false;
   std::uint32_t size = 0;
   for (int i = 0; i < 4; ++i)
     size |= std::uint32_t(std::uint8_t(data.back[data.back.size() - 4 + std::size_t(i)])) << (8 * i);

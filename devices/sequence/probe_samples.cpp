@@ -77,7 +77,7 @@ TransformPath named_path(const Sequence& sequence, std::string_view wanted) {
 }
 
 std::optional<std::string> why_not_pose(const glm::dmat4& matrix) {
-  return why_not_rigid(matrix, kTrackerRangeMm, kRecordedRotationError);
+  return why_not_rigid(matrix, kTrackerRange_mm, kRecordedRotationError);
 }
 
 /// Converts a matrix to a pose and records its rotation's error.

@@ -38,7 +38,7 @@ struct SequenceFrame {
 
 /// Largest delay of a frame behind a later one. Writers that take poses and images from two threads swap them by less
 /// than a frame; a larger step back means that a clock was set.
-inline constexpr double kLargestDisorderS = 0.05;
+inline constexpr double kLargestDisorder_s = 0.05;
 
 /// The frames of an IGSIO/PLUS sequence file (.igs.mha, .seq.mha, .seq.nrrd). The images stay in the file
 /// (recorded_images.h reads them).
@@ -49,7 +49,7 @@ struct Sequence {
   std::vector<SequenceFrame> frames;            ///< at least one; times finite and strictly rising
   bool has_times = true;                        ///< false: no frame has a Timestamp; the frames are in the file's order
   std::size_t frames_out_of_order = 0;          ///< frames that stood behind a later one and were sorted by time
-  double worst_disorder_s = 0;                  ///< the largest such delay, at most kLargestDisorderS
+  double worst_disorder_s = 0;                  ///< the largest such delay, at most kLargestDisorder_s
   bool has_images = false;
   std::size_t image_offset = 0;         ///< offset in the file's bytes
   std::size_t image_bytes = 0;          ///< compressed size if the file is compressed
@@ -66,7 +66,7 @@ struct Sequence {
 /// frames or of none), `Buttons`, `Distortion`, `Rejected` and `Actions` (Insonate's own, which other readers skip). In
 /// the header it reads the fields for size, kind and orientation, and `...Transform` fields. It skips everything else
 /// that is well formed, including images: it only checks that they are present. Frames that stand at most
-/// kLargestDisorderS behind a later one are sorted by time. `file` names the file in error messages.
+/// kLargestDisorder_s behind a later one are sorted by time. `file` names the file in error messages.
 ///
 /// A pure function of the bytes. Memory and time are proportional to the number of bytes, whatever sizes they claim.
 /// Throws InputError if the file is truncated, malformed or contradictory, or is of an unsupported kind (a separate

@@ -12,7 +12,7 @@ namespace {
 
 /// How many bytes one byte of a deflate stream can stand for (zlib's technical details:
 /// https://zlib.net/zlib_tech.html).
-constexpr std::uint64_t kMostCompression = 1032;
+constexpr std::uint64_t kMaxCompression = 1032;
 
 std::size_t count_kinds(const ClaimedImages& claimed, std::initializer_list<std::string_view> names) {
   return std::size_t(std::count_if(claimed.kinds.begin(), claimed.kinds.end(), [&](std::string_view kind) {
@@ -86,7 +86,7 @@ std::optional<ImageForm> image_form(const ClaimedImages& claimed, std::optional<
   if (lengths.size() < 2) return std::nullopt;
   form.width = lengths[0];
   form.height = lengths[1];
-  if (std::max(form.width, form.height) > kLongestImageSide || form.frame_bytes > kMostImageBytes) return std::nullopt;
+  if (std::max(form.width, form.height) > kLongestImageSide || form.frame_bytes > kMaxImageBytes) return std::nullopt;
   return form;
 }
 
@@ -121,7 +121,7 @@ SequenceLayout sequence_layout(const ClaimedImages& claimed, std::uint64_t bytes
                      "it is truncated: " + std::to_string(bytes_after) + " bytes of " +
                          std::to_string(layout.image_bytes) + " are there",
                      "copy or record the file again");
-  if (claimed.compressed && raw / kMostCompression > bytes_after)
+  if (claimed.compressed && raw / kMaxCompression > bytes_after)
     throw InputError(file, "image data",
                      "it is truncated: " + std::to_string(bytes_after) + " bytes cannot hold images of " +
                          std::to_string(raw) + " bytes, even compressed",

@@ -22,7 +22,7 @@ inline constexpr const char* kExportAgain = "record or export the file again";
 /// The longest side of an image that is read, pixels: that of the largest texture of most graphics cards.
 inline constexpr std::uint64_t kLongestImageSide = 16384;
 /// The most bytes of a frame's image that is read, with all its slices: zlib counts to 4 GiB.
-inline constexpr std::uint64_t kMostImageBytes = std::uint64_t(1) << 30;
+inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t(1) << 30;
 
 /// Form of one frame's image in a file whose frames are stored one after the other.
 struct ImageForm {

@@ -25,9 +25,9 @@ constexpr std::string_view kTransformStatus = "TransformStatus";
 constexpr std::string_view kOrientation = "UltrasoundImageOrientation",
                            kNrrdOrientation = "ultrasound image orientation";
 // A tracked scan has a few transforms. The limit keeps the search within a frame short for any file.
-constexpr std::size_t kMostTransforms = 256;
+constexpr std::size_t kMaxTransforms = 256;
 // Length of the shortest line of a frame, "Seq_Frame0_Timestamp=0\n": a file cannot hold more frames than such lines.
-constexpr std::size_t kLeastFrameBytes = 23;
+constexpr std::size_t kMinFrameBytes = 23;
 
 constexpr const char* kGiveSequence = "give a sequence file (.igs.mha, .seq.mha or .seq.nrrd)";
 constexpr const char* kScanAgain = "record the scan again";
@@ -161,7 +161,7 @@ private:
     if (fields_.empty())
       fail("header", "no frame is described (there are no 'Seq_Frame0000_...' fields): it is a plain image",
            "give a tracked sequence (.igs.mha, .seq.mha or .seq.nrrd)");
-    if (frames > bytes_.front.size() / kLeastFrameBytes || *highest_frame_ >= frames)
+    if (frames > bytes_.front.size() / kMinFrameBytes || *highest_frame_ >= frames)
       fail("header",
            "DimSize says " + std::to_string(frames) + " frames, but the last one described is frame " +
                std::to_string(*highest_frame_),
@@ -174,8 +174,8 @@ private:
   SequenceTransform& transform(std::size_t frame, std::string_view name) {
     const auto [found, added] = name_indices_.emplace(name, int(sequence_.transform_names.size()));
     if (added) {
-      if (sequence_.transform_names.size() == kMostTransforms)
-        fail("header", "the frames have more than " + std::to_string(kMostTransforms) + " different transforms",
+      if (sequence_.transform_names.size() == kMaxTransforms)
+        fail("header", "the frames have more than " + std::to_string(kMaxTransforms) + " different transforms",
              "record only those of the probe");
       sequence_.transform_names.emplace_back(name);
     }
@@ -272,7 +272,7 @@ private:
     double latest_s = sequence_.frames.front().time_s;
     for (const SequenceFrame& frame : sequence_.frames) {
       const double behind_s = latest_s - frame.time_s;
-      if (behind_s > kLargestDisorderS) fail_time(frame, "lies before", latest_s);
+      if (behind_s > kLargestDisorder_s) fail_time(frame, "lies before", latest_s);
       if (behind_s > 0) ++sequence_.frames_out_of_order;
       sequence_.worst_disorder_s = std::max(sequence_.worst_disorder_s, behind_s);
       latest_s = std::max(latest_s, frame.time_s);
@@ -287,7 +287,7 @@ private:
       const SequenceFrame& frame = sequence_.frames[f];
       const double before_s = sequence_.frames[f - 1].time_s;
       if (frame.time_s == before_s) fail_time(frame, "repeats", before_s);
-      if (frame.time_s - before_s > kLongestStepS) fail_time(frame, "lies more than a day behind", before_s);
+      if (frame.time_s - before_s > kLongestStep_s) fail_time(frame, "lies more than a day behind", before_s);
     }
   }
 

@@ -89,7 +89,7 @@ void append_frame(std::string& text, std::size_t index, const ProbeSample& sampl
 
 std::string why_not_recordable(const ProbeSample& sample, double before_s) {
   if (!std::isfinite(sample.time_s) || !(sample.time_s > before_s)) return "its time is not after the one before";
-  if (sample.time_s - before_s > kLongestStepS && std::isfinite(before_s))
+  if (sample.time_s - before_s > kLongestStep_s && std::isfinite(before_s))
     return "its time is more than a day after the one before";
   if (sample.status != PoseStatus::ok) return "";
   return why_not_rigid(sample.patient_from_probe.matrix()).value_or("");

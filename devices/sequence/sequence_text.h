@@ -28,7 +28,7 @@ inline constexpr std::string_view kSequenceEnd = "ElementDataFile = LOCAL\n";
 
 /// No scan pauses for longer. A longer step means that a clock was set during the scan, and a replay would wait that
 /// long.
-inline constexpr double kLongestStepS = 24 * 3600;
+inline constexpr double kLongestStep_s = 24 * 3600;
 
 /// Returns why `sample` could not be read back after a sample with time `before_s`; empty if it could.
 std::string why_not_recordable(const ProbeSample& sample, double before_s);

@@ -45,15 +45,15 @@ void SpaceMouseSource::start(Transport&, const AttachedDevice&) {
 
 void SpaceMouseSource::move(double elapsed_s) {
   const glm::dvec3 way = translation_ + rotation_ * (push_ * speed_ * kMmPerS * elapsed_s) - began_;
-  translation_ = began_ + way * std::min(kRangeMm / std::max(glm::length(way), kRangeMm), 1.0);
+  translation_ = began_ + way * std::min(kRange_mm / std::max(glm::length(way), kRange_mm), 1.0);
   const glm::dvec3 turn = turn_ * speed_ * kRadPerS * elapsed_s;
   if (const double angle = glm::length(turn); angle > 0)
     rotation_ = glm::normalize(rotation_ * glm::angleAxis(angle, turn / angle));
 }
 
 bool SpaceMouseSource::take(Bytes bytes, double time_s, LiveBatch& batch, ReportTally& tally) {
-  // Until now the cap moved at the rate it last reported, but no longer than kLetGoS after that report.
-  if (now_s_ > 0) move(std::clamp(std::min(time_s, reported_s_ + kLetGoS) - now_s_, 0.0, kLetGoS));
+  // Until now the cap moved at the rate it last reported, but no longer than kLetGo_s after that report.
+  if (now_s_ > 0) move(std::clamp(std::min(time_s, reported_s_ + kLetGo_s) - now_s_, 0.0, kLetGo_s));
   now_s_ = time_s;
   bool understood = false;
   if (!bytes.empty()) {

@@ -20,10 +20,10 @@ public:
   static constexpr double kMmPerS = 60, kRadPerS = 1;
   /// A displaced cap reports about every 8 ms. After this long without a report it counts as released: the probe must
   /// not run away because a report was lost.
-  static constexpr double kLetGoS = 0.1;
+  static constexpr double kLetGo_s = 0.1;
   /// Largest distance from the start, so that a cap that is held down does not lose the probe: more than a patient's
   /// length.
-  static constexpr double kRangeMm = 2000;
+  static constexpr double kRange_mm = 2000;
 
   SpaceMouseSource(std::shared_ptr<DeviceBus> bus, const std::string& serial, const Pose& start, double speed,
                    std::function<double()> clock_s = steady_now_s);

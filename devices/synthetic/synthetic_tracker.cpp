@@ -19,10 +19,10 @@ namespace insonate {
 namespace {
 
 // Physiological tremor of a hand: 8 to 12 Hz and about 0.1 mm (Elble and Koller, Tremor, 1990).
-constexpr double kTremorMm = 0.1;
-constexpr double kTremorHz[] = {8.3, 9.7, 11.6};
+constexpr double kTremor_mm = 0.1;
+constexpr double kTremor_hz[] = {8.3, 9.7, 11.6};
 // Static noise of a magnetic tracker in a clean field is 0.08 to 0.3 mm; uniform noise in +-0.15 mm is 0.087 mm RMS.
-constexpr double kNoiseMm = 0.15;
+constexpr double kNoise_mm = 0.15;
 constexpr double kDropoutsPerSecond = 0.08;
 
 // Purpose of a random number.
@@ -114,9 +114,9 @@ Pose SyntheticTracker::trembling(const Pose& pose, std::uint32_t index, double t
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     for (std::uint32_t wave = 0; wave < 3; ++wave) {
       const double phase = random(kTremor, axis * 3 + wave);
-      shake[int(axis)] += kTremorMm / 3 * std::sin(glm::two_pi<double>() * (kTremorHz[wave] * time_s + phase));
+      shake[int(axis)] += kTremor_mm / 3 * std::sin(glm::two_pi<double>() * (kTremor_hz[wave] * time_s + phase));
     }
-    shake[int(axis)] += between(-kNoiseMm, kNoiseMm, random(kNoiseX + axis, index));
+    shake[int(axis)] += between(-kNoise_mm, kNoise_mm, random(kNoiseX + axis, index));
   }
   return {pose.rotation, pose.translation + shake};
 }

@@ -11,7 +11,7 @@ namespace insonate {
 namespace {
 
 constexpr int kInterface = 0;
-constexpr unsigned kSendTimeoutMs = 200;
+constexpr unsigned kSendTimeout_ms = 200;
 
 /// A separate context for each listing and each open device, so that a new listing shows what was plugged in since.
 class Context {
@@ -101,7 +101,7 @@ public:
     int sent = 0;
     // libusb takes a pointer to non-const, but only reads.
     const int error = libusb_bulk_transfer(handle_.get(), endpoints_.out, const_cast<std::uint8_t*>(bytes.data()),
-                                           int(bytes.size()), &sent, kSendTimeoutMs);
+                                           int(bytes.size()), &sent, kSendTimeout_ms);
     if (error == LIBUSB_ERROR_PIPE) libusb_clear_halt(handle_.get(), endpoints_.out);
     if (error == LIBUSB_ERROR_PIPE || error == LIBUSB_ERROR_TIMEOUT) throw refused(device_, libusb_strerror(error));
     if (error != LIBUSB_SUCCESS) fail(error);

@@ -43,12 +43,12 @@ print("pixels of the stone by tilt:", dict(zip(range(-10, 11, 2), seen.tolist())
 simulator.set(gain_db=10)
 print("10 dB of gain brighten the picture from", picture.mean().round(1), "to", simulator.image().mean().round(1))
 
-# %% Registration: LC2 finds how far to the side a picture was taken.
+# %% ImageSimilarity: LC2 finds how far to the side a picture was taken.
 def moved(millimetres):
     return view.pose @ [[1, 0, 0, millimetres], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 
-with insonate.Registration(case, picture, view.probe, view.depth_mm) as registration:
-    similarity = registration.similarity(np.array([moved(x) for x in range(-20, 21, 4)]))
+with insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm) as comparison:
+    similarity = comparison.similarity(np.array([moved(x) for x in range(-20, 21, 4)]))
 print("most similar", range(-20, 21, 4)[int(similarity.argmax())], "mm to the side")
 
 # %% What cannot be used raises one sentence.

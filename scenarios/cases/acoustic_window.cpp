@@ -17,14 +17,14 @@ namespace {
 constexpr int kLines = 32;
 constexpr double kSample_mm = 1;
 constexpr double kDeepest_mm = 240;  // maximum depth of a curvilinear probe
-constexpr double kLiverHu = 60;
+constexpr double kLiver_hu = 60;
 constexpr double kLost_db = 20;         // same as ViewMeter's limit for arriving sound
 constexpr double kHalfOff = 0.5;        // loss of the rating for targets at the fan's edge
 constexpr double kTypicalWay_mm = 100;  // distance over which the rating falls to 1/e
 
-constexpr double kMostToBack = 0.5;   // sine of 30 degrees: the couch
-constexpr double kMostAlong = 0.766;  // sine of 50 degrees
-constexpr double kBoneHu = 200;       // start of bone in the tissue table
+constexpr double kMaxToBack = 0.5;   // sine of 30 degrees: the couch
+constexpr double kMaxAlong = 0.766;  // sine of 50 degrees
+constexpr double kBone_hu = 200;     // start of bone in the tissue table
 constexpr int kFacePlaces = 7;
 constexpr double kFaceLifted_mm = 15;  // maximum gap between an end of the face and the skin
 constexpr std::array kPresses_mm = {12.0, 8.0, 4.0};
@@ -67,7 +67,7 @@ WindowSearch::WindowSearch(const Case& subject, const BodyMask& body, const Tiss
       body_(&body),
       probe_(probe),
       transmission_(subject.ct, tissues, kSample_mm, probe.frequency_mhz),
-      soft_tissue_db_per_mm_(tissues.at(kLiverHu).absorption_db_cm_mhz * probe.frequency_mhz / 10) {
+      soft_tissue_db_per_mm_(tissues.at(kLiver_hu).absorption_db_cm_mhz * probe.frequency_mhz / 10) {
   probe_.lines = kLines;
 }
 
@@ -99,7 +99,7 @@ bool WindowSearch::face_fits(const Pose& pose, double press_mm) const {
     double s = 0;
     for (; in_body(start + outwards * s); s += 1) {
       if (s > press_mm + kFaceLifted_mm) return false;
-      if (sample_trilinear(subject_->ct, subject_->ct.grid.index_from_patient(start + outwards * s)) > kBoneHu)
+      if (sample_trilinear(subject_->ct, subject_->ct.grid.index_from_patient(start + outwards * s)) > kBone_hu)
         return false;
     }
     if (s == 0 && !distance_to_skin(subject_->ct, start, -outwards, kFaceLifted_mm)) return false;
@@ -119,7 +119,7 @@ std::optional<Pose> WindowSearch::place(const WantedPicture& wanted, const Choic
   const glm::dvec3 level = u * std::cos(round) + v * std::sin(round);
   const glm::dvec3 beam = level * std::cos(lean) + a * std::sin(lean);
   const glm::dvec3 outwards = -beam;
-  if (outwards.y > kMostToBack || std::abs(outwards.z) > kMostAlong) return std::nullopt;
+  if (outwards.y > kMaxToBack || std::abs(outwards.z) > kMaxAlong) return std::nullopt;
   const auto skin = skin_from(wanted.aim, outwards);
   if (!skin) return std::nullopt;
 
@@ -200,9 +200,9 @@ double WindowSearch::section_mm2(const WantedPicture& wanted, const Pose& pose) 
 }
 
 std::optional<Window> WindowSearch::best(const WantedPicture& wanted) const {
-  constexpr int kRound_deg = 5, kLean_deg = 10, kMostLean_deg = 40, kMostTilt_deg = 20;
+  constexpr int kRound_deg = 5, kLean_deg = 10, kMaxLean_deg = 40, kMaxTilt_deg = 20;
   std::vector<Choice> coarse;
-  const int most = wanted.along ? kMostLean_deg : kMostTilt_deg;
+  const int most = wanted.along ? kMaxLean_deg : kMaxTilt_deg;
   for (int round = 0; round < 360; round += kRound_deg)
     for (int lean = -most; lean <= most; lean += kLean_deg)
       for (const double press : kPresses_mm) coarse.push_back({double(round), double(lean), 0, press});

@@ -64,7 +64,7 @@ void fill_slices(Volume<std::uint8_t>& mask) {
 
 BodyMask find_body(const Volume<std::int16_t>& ct) {
   BodyMask dense{ct.grid, std::vector<std::uint8_t>(ct.voxels.size())};
-  for (std::size_t v = 0; v < ct.voxels.size(); ++v) dense.voxels[v] = ct.voxels[v] > kSkinHu;
+  for (std::size_t v = 0; v < ct.voxels.size(); ++v) dense.voxels[v] = ct.voxels[v] > kSkin_hu;
   const glm::ivec3 radius = glm::ivec3(glm::max(glm::dvec3(1.0), glm::round(kPeeled_mm / ct.grid.spacing)));
   BodyMask body = dense;
   filter_box(body, radius, false);
@@ -84,8 +84,8 @@ std::size_t clear_around(const BodyMask& body, Volume<std::int16_t>& ct) {
     std::size_t here = 0;
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       if (kept.voxels[v]) continue;
-      here += ct.voxels[v] > kSkinHu;
-      ct.voxels[v] = std::int16_t(kAirHu);
+      here += ct.voxels[v] > kSkin_hu;
+      ct.voxels[v] = std::int16_t(kAir_hu);
     }
     cleared += here;
   });

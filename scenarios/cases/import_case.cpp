@@ -22,8 +22,8 @@ constexpr double kCtRead = 0.1, kLabelsRead = 0.3, kBodyFound = 0.4;
 Volume<std::int16_t> read_at_working_spacing(const ImportRequest& request) {
   Volume<std::int16_t> ct = read_ct(request.ct);
   const glm::dvec3 spacing = ct.grid.spacing;
-  if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxelMm)
-    ct = resample_isotropic(ct, kInsonatedVoxelMm, request.ct.string());
+  if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxel_mm)
+    ct = resample_isotropic(ct, kInsonatedVoxel_mm, request.ct.string());
   return ct;
 }
 

@@ -25,7 +25,7 @@ struct ImportedCase {
 };
 
 /// Makes a case from a CT and its segmentation by TotalSegmentator. Resamples a coarser CT to voxels of
-/// kInsonatedVoxelMm and removes table and clothes. Labels are resampled to smooth surfaces (resample_labels()). The
+/// kInsonatedVoxel_mm and removes table and clothes. Labels are resampled to smooth surfaces (resample_labels()). The
 /// sinus of each kidney gets a label (kidney_sinus.h).
 ///
 /// Each compact organ (liver, spleen, kidneys, gallbladder, pancreas, bladder, prostate) has landmarks at its centre,

@@ -12,8 +12,8 @@ namespace insonate {
 namespace {
 
 constexpr double kHalfHilum_mm = 12;  // the lips of a kidney's hilum are up to 24 mm apart
-constexpr double kLeastSinus_ml = 1;
-constexpr int kDensestGasHu = -200;
+constexpr double kMinSinus_ml = 1;
+constexpr int kDensestGas_hu = -200;
 
 /// A part of a volume.
 struct Part {
@@ -49,7 +49,7 @@ Volume<std::uint8_t> find_sinus(const Case& subject, std::uint8_t kidney, const 
   filter_box(closed, reach, true);
   filter_box(closed, reach, false);
   each_voxel(part, [&](const glm::ivec3& i) {
-    if (subject.labels.at(part.low + i) != 0 || subject.ct.at(part.low + i) <= kDensestGasHu) closed.at(i) = 0;
+    if (subject.labels.at(part.low + i) != 0 || subject.ct.at(part.low + i) <= kDensestGas_hu) closed.at(i) = 0;
   });
   Volume<std::uint8_t> sinus = closed;
   filter_box(sinus, glm::ivec3(1), false);
@@ -76,7 +76,7 @@ std::vector<std::string> label_kidney_sinuses(Case& subject) {
     if (value == 256 || !part) continue;
     const Volume<std::uint8_t> sinus = find_sinus(subject, kidney->value, *part, reach);
     const double ml = double(std::ranges::count(sinus.voxels, 1)) * spacing.x * spacing.y * spacing.z / 1000;
-    if (ml < kLeastSinus_ml) continue;
+    if (ml < kMinSinus_ml) continue;
     each_voxel(*part, [&](const glm::ivec3& i) {
       if (sinus.at(i)) subject.labels.at(part->low + i) = std::uint8_t(value);
     });

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> kVolumeEndings = {".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd"};
-constexpr int kMostStructures = 255;
+constexpr int kMaxStructures = 255;
 
 using Counts = std::array<std::size_t, 256>;
 
@@ -202,7 +202,7 @@ public:
     const std::size_t size = labelled(count_values(here));
     note_outside("'" + mask.structure + "'", within, made_.notes);
     if (size == 0) return;
-    if (made_.table.size() == kMostStructures)
+    if (made_.table.size() == kMaxStructures)
       throw InputError(mask.file.string(), "", "there are more than 255 structures", "take some out of the folder");
     const auto value = std::uint8_t(made_.table.size() + 1);
     made_.table.push_back(label_of(mask.file.string(), value, mask.structure, made_.notes));

@@ -12,7 +12,7 @@ namespace insonate {
 namespace {
 
 constexpr double kBehind_mm = 20;  // shown beyond the deepest visible target, for orientation
-constexpr double kLeastDepth_mm = 80, kMostDepth_mm = 240, kDepthStep_mm = 10;
+constexpr double kMinDepth_mm = 80, kMaxDepth_mm = 240, kDepthStep_mm = 10;
 const glm::dvec3 kHead(0, 0, 1), kRight(-1, 0, 0);
 
 /// A candidate for a view.
@@ -111,7 +111,7 @@ public:
     }
     const std::string shows = whole_percent(window->section_share) + " of the section, " +
                               whole_percent(window->clear_share) + " of it clear of bone and gas";
-    if (window->clear_share < kLeastClear || window->section_share < kLeastSection) {
+    if (window->clear_share < kMinClear || window->section_share < kMinSection) {
       made_.notes.push_back("No view '" + chosen->name + "': the best place on the skin shows " + shows + ".");
       return;
     }
@@ -119,8 +119,8 @@ public:
     view.name = chosen->name;
     view.title = chosen->title;
     view.probe = probe_.name;
-    view.depth_mm = std::clamp(std::ceil((window->depth_mm + kBehind_mm) / kDepthStep_mm) * kDepthStep_mm,
-                               kLeastDepth_mm, kMostDepth_mm);
+    view.depth_mm = std::clamp(std::ceil((window->depth_mm + kBehind_mm) / kDepthStep_mm) * kDepthStep_mm, kMinDepth_mm,
+                               kMaxDepth_mm);
     view.targets = chosen->targets;
     view.patient_from_probe = window->patient_from_probe;
     view.landmarks = landmarks_in(subject_, probe_, view);

@@ -12,7 +12,7 @@ namespace insonate {
 
 /// The least that a view must show of its targets: this share of their area in its fan is clear of bone and gas, and
 /// this share of their section in its plane is visible.
-inline constexpr double kLeastClear = 0.5, kLeastSection = 0.25;
+inline constexpr double kMinClear = 0.5, kMinSection = 0.25;
 
 /// The result of suggest_views().
 struct SuggestedViews {
@@ -27,7 +27,7 @@ struct SuggestedViews {
 ///   aorta_transverse_l2, ..., aorta_long  perpendicular to the vessel at each of its levels, and along it at the level
 ///                                         that shows best
 ///   hepatorenal, splenorenal              along the kidney's long axis through the recess
-/// A view below kLeastClear or kLeastSection is left out. A view's landmarks are the case's landmarks that belong to
+/// A view below kMinClear or kMinSection is left out. A view's landmarks are the case's landmarks that belong to
 /// its targets and lie in its picture. The case must have its volumes, labels and landmarks. Every returned view passes
 /// ViewMeter's checks.
 SuggestedViews suggest_views(const Case& subject, const Anatomy& anatomy, const BodyMask& body,

@@ -16,9 +16,9 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
-constexpr std::size_t kMostSteps = 100;
-constexpr std::size_t kMostCriteria = 100;
-constexpr std::size_t kMostHints = 10;
+constexpr std::size_t kMaxSteps = 100;
+constexpr std::size_t kMaxCriteria = 100;
+constexpr std::size_t kMaxHints = 10;
 constexpr double kLongestExam_s = 36000;
 constexpr double kLongestStep_s = 3600;
 
@@ -85,7 +85,7 @@ Criterion read_criterion(const TomlTable& table, bool whole_exam) {
 std::vector<Criterion> read_criteria(const TomlTable& parent, bool whole_exam) {
   std::vector<Criterion> criteria;
   std::set<Metric> seen;
-  for (const TomlTable& table : parent.tables("criterion", kMostCriteria)) {
+  for (const TomlTable& table : parent.tables("criterion", kMaxCriteria)) {
     const std::size_t mistakes_before = table.mistake_count();
     criteria.push_back(read_criterion(table, whole_exam));
     if (table.mistake_count() == mistakes_before && !seen.insert(criteria.back().metric).second)
@@ -168,7 +168,7 @@ Step read_step(const TomlTable& table, const Scenario& exam) {
   step.name = table.text("name", "");
   step.time_limit_s = table.number("time_limit_s", {1, kLongestStep_s}, exam.time_limit_s);
   step.counts = table.boolean("counts", true);
-  for (const TomlTable& hint : table.tables("hint", kMostHints))
+  for (const TomlTable& hint : table.tables("hint", kMaxHints))
     step.hints.push_back({hint.text("text"), read_cost(hint, exam.difficulty)});
   if (table.has("next")) {
     const TomlTable next = table.table("next");
@@ -260,7 +260,7 @@ Scenario read_tables(const TomlTable& table, const Variant* variant) {
                    "remove them, or set case = \"abdomen\"");
   }
   read_variants(table);  // the variants were read before; this call registers and checks their keys
-  const std::vector<TomlTable> steps = table.tables("step", kMostSteps);
+  const std::vector<TomlTable> steps = table.tables("step", kMaxSteps);
   for (const TomlTable& step : steps) {
     scenario.steps.push_back(read_step(step, scenario));
     if (!scenario.steps.back().counts && scenario.steps.size() > 1 && scenario.steps[scenario.steps.size() - 2].counts)

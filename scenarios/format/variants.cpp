@@ -38,7 +38,7 @@ std::string spelt(const std::string& text, const SourcePlace& place, const Varia
 
 std::vector<Variant> read_variants(const TomlTable& scenario) {
   std::vector<Variant> variants;
-  for (const TomlTable& table : scenario.tables("variant", kMostVariants)) {
+  for (const TomlTable& table : scenario.tables("variant", kMaxVariants)) {
     Variant variant;
     variant.name = table.text("name");
     variant.case_name = table.text("case", "");

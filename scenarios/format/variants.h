@@ -20,9 +20,9 @@ struct Variant {
   std::vector<std::pair<std::string, std::string>> words;            ///< words = { side = "right" }: see spell_out()
 };
 
-inline constexpr std::size_t kMostVariants = 32;
+inline constexpr std::size_t kMaxVariants = 32;
 
-/// Reads the [[variant]] tables of a scenario, at most kMostVariants.
+/// Reads the [[variant]] tables of a scenario, at most kMaxVariants.
 std::vector<Variant> read_variants(const TomlTable& scenario);
 
 /// Returns the index of the variant that a seed selects among `count`; 0 if there is none.

@@ -72,7 +72,7 @@ std::optional<double> Smoothness::spectral_arc_length() const {
   for (std::size_t i = 0; i < magnitude.size(); ++i) magnitude[i] = std::abs(spectrum[i]);
   const double largest = *std::max_element(magnitude.begin(), magnitude.end());
   std::size_t last = magnitude.size() - 1;
-  while (last > 0 && magnitude[last] < kLeastShare * largest) --last;
+  while (last > 0 && magnitude[last] < kMinShare * largest) --last;
   if (last == 0) return std::nullopt;
   double length = 0;
   for (std::size_t i = 1; i <= last; ++i)

@@ -29,9 +29,9 @@ public:
   std::optional<double> log_dimensionless_jerk() const;
 
   /// Returns the negative arc length of the speed's normalised Fourier magnitude, up to the frequency above which it
-  /// stays below kLeastShare. It is about -1.4 for one minimum-jerk reach.
+  /// stays below kMinShare. It is about -1.4 for one minimum-jerk reach.
   std::optional<double> spectral_arc_length() const;
-  static constexpr double kLeastShare = 0.05;
+  static constexpr double kMinShare = 0.05;
 
 private:
   double rate_hz_;

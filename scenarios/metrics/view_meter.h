@@ -24,7 +24,8 @@ inline constexpr double kSampleDistance_mm = 0.6;
 /// The rotation from the reference to the probe, in the reference probe's frame, is decomposed as
 ///   rotation matrix = Rx(tilt) Rz(rock) Ry(rotation).
 /// Tilt (about the lateral axis, out of the plane) and rock (in the plane) give the direction of the beam. Rotation is
-/// the angle about the beam. Right-hand rule, -180 to 180 degrees, rock -90 to 90.
+/// the angle about the beam. Right-hand rule, -180 to 180 degrees, rock -90 to 90. GuidingMove has angles of the same
+/// names for the way back, from the probe to the reference, in the order in which a hand turns the probe.
 struct ViewValues {
   double plane_distance_mm = 0;   ///< distance of the target point along the picture's normal, signed
   double in_plane_offset_mm = 0;  ///< between the target point's position in the picture and its intended position

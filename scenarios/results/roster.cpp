@@ -44,7 +44,7 @@ std::vector<Entry> entries_of_csv(const std::string& file, std::string_view text
   std::vector<Entry> entries;
   bool headed = false;
   // Stops once the limit is exceeded, so that a far too long file is not stored.
-  for (std::size_t line = 1; !text.empty() && entries.size() <= kMostLearners; ++line) {
+  for (std::size_t line = 1; !text.empty() && entries.size() <= kMaxLearners; ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view cell = unquoted(without_blanks(text.substr(0, end)));
     text = end == std::string_view::npos ? "" : text.substr(end + 1);
@@ -70,8 +70,8 @@ std::vector<std::string> read_roster(const std::filesystem::path& file) {
   const std::vector<Entry> entries =
       file.extension() == ".toml" ? entries_of_toml(name, text) : entries_of_csv(name, text);
   if (entries.empty()) throw InputError(name, "", "it lists no learners", "write their ids into it");
-  if (entries.size() > kMostLearners)
-    throw InputError(name, "", "the number of its learners is above the limit of " + std::to_string(kMostLearners),
+  if (entries.size() > kMaxLearners)
+    throw InputError(name, "", "the number of its learners is above the limit of " + std::to_string(kMaxLearners),
                      "check that it is the right file");
   std::map<std::string, std::string> places;
   std::vector<std::string> ids;

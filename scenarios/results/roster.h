@@ -13,9 +13,9 @@ namespace insonate {
 ///     learners = ["L-01", "L-02"]
 ///
 /// The file holds only ids; names and groups stay with the lab. Throws InputError with the line for an invalid id, a
-/// duplicate id, another column, an empty list, or more than kMostLearners ids.
+/// duplicate id, another column, an empty list, or more than kMaxLearners ids.
 std::vector<std::string> read_roster(const std::filesystem::path& file);
 
-inline constexpr std::size_t kMostLearners = 100'000;
+inline constexpr std::size_t kMaxLearners = 100'000;
 
 }  // namespace insonate

@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kMostScatterers = 5e6;
+constexpr double kMaxScatterers = 5e6;
 constexpr int kDepths = 8;
 constexpr double kTenthOfAmplitude = 0.1;
 
@@ -112,7 +112,7 @@ std::vector<PointScatterer> scene_of(const Transducer& transducer, const Beamfor
                      glm::dvec3(request.width_mm / 2, request.depth_mm, half_thickness)};
   const BeamProfile middle = beam_profile(transducer, beamforming, line_at(transducer, 0), 0.625 * request.depth_mm);
   const double per_mm3 = request.per_cell / cell_volume_mm3(middle), count = per_mm3 * box.volume_mm3();
-  if (count > kMostScatterers)
+  if (count > kMaxScatterers)
     throw InputError("scene", "", "it would have " + number_text(count) + " scatterers, and at most 5 million fit",
                      "give fewer per cell, less depth or less width");
   return request.kind == SceneKind::block ? uniform_block(box, per_mm3, request.seed)

@@ -14,7 +14,7 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestTransducerFile = 1u << 16;
-constexpr int kMostElements = 1024;
+constexpr int kMaxElements = 1024;
 
 // In the order of ProbeKind.
 const std::vector<std::string> kKinds{"linear", "curvilinear", "phased"};
@@ -37,7 +37,7 @@ Transducer read_transducer(const std::filesystem::path& toml_file) {
   transducer.kind = ProbeKind(root.choice("kind", kKinds));
 
   const TomlTable array = root.table("array");
-  transducer.elements = int(array.whole_number("elements", 1, kMostElements));
+  transducer.elements = int(array.whole_number("elements", 1, kMaxElements));
   transducer.pitch_mm = array.number("pitch_mm", {0.02, 5});
   transducer.kerf_mm = array.number("kerf_mm", {0, 5});
   if (transducer.kerf_mm >= transducer.pitch_mm)

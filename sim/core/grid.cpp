@@ -20,7 +20,7 @@ double sample_trilinear(const Volume<std::int16_t>& ct, const glm::dvec3& index)
   // Compare before the cast: a position far outside does not fit an int.
   if (!(glm::all(glm::greaterThanEqual(index, glm::dvec3(-1))) &&
         glm::all(glm::lessThan(index, glm::dvec3(ct.grid.size)))))
-    return kAirHu;
+    return kAir_hu;
   const glm::ivec3 base(floor_of(index.x), floor_of(index.y), floor_of(index.z));
   const glm::dvec3 f = index - glm::dvec3(base), g = 1.0 - f;
   const double weights[8] = {g.x * g.y * g.z, f.x * g.y * g.z, g.x * f.y * g.z, f.x * f.y * g.z,
@@ -32,7 +32,7 @@ double sample_trilinear(const Volume<std::int16_t>& ct, const glm::dvec3& index)
   for (std::size_t corner = 0; corner < 8; ++corner) {
     const std::size_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
     const glm::ivec3 at = base + glm::ivec3(x, y, z);
-    const double hu = inside ? first[z * slice + y * row + x] : ct.grid.contains(at) ? ct.at(at) : kAirHu;
+    const double hu = inside ? first[z * slice + y * row + x] : ct.grid.contains(at) ? ct.at(at) : kAir_hu;
     value += weights[corner] * hu;
   }
   return value;

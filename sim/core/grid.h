@@ -56,7 +56,7 @@ inline int floor_of(double x) {
 }
 
 /// The Hounsfield units assumed outside every CT.
-inline constexpr double kAirHu = -1000.0;
+inline constexpr double kAir_hu = -1000.0;
 
 /// Returns the Hounsfield units at a continuous index: trilinear between centres, air outside. Within one voxel of the
 /// border the value falls linearly to air, as with the GPU's clamp-to-border sampling.

@@ -30,7 +30,7 @@ struct Pose {
 Pose operator*(const Pose& a_from_b, const Pose& b_from_c);
 
 /// The longest translation accepted from a tracker, mm; no tracker's range is larger.
-inline constexpr double kTrackerRangeMm = 1e5;
+inline constexpr double kTrackerRange_mm = 1e5;
 
 /// The largest entry of |R^T R - 1| that rounding to 6 decimals causes, with a margin.
 inline constexpr double kRoundingToSixDecimals = 2e-4;
@@ -41,7 +41,7 @@ double orthonormal_error(const glm::dmat3& rotation);
 /// Returns why `matrix` is not a rigid transform in mm, as the problem part of an InputError ("the rotation mirrors:
 /// its determinant is -1"). Returns nothing if it is one. Accepts an orthonormal_error() up to `largest_error`, the
 /// last row (0 0 0 1), and a translation up to `reach_mm`.
-std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerRangeMm,
+std::optional<std::string> why_not_rigid(const glm::dmat4& matrix, double reach_mm = kTrackerRange_mm,
                                          double largest_error = kRoundingToSixDecimals);
 
 /// Returns the pose of a matrix that why_not_rigid() accepts. A matrix that is orthonormal to double precision keeps

@@ -6,7 +6,7 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kMostListed = 100;
+constexpr std::size_t kMaxListed = 100;
 
 std::string in_words(const SourcePlace& place) {
   return place.line > 0 ? "line " + std::to_string(place.line) + ", column " + std::to_string(place.column) : "";
@@ -36,12 +36,12 @@ InputError input_error(const std::string& file, std::vector<Mistake> mistakes) {
     return InputError(file, in_words(only.place), only.problem, only.remedy);
   }
   std::string text = in_one_line(file) + ": " + std::to_string(mistakes.size()) + " problems; correct them:";
-  for (std::size_t i = 0; i < std::min(mistakes.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(mistakes.size(), kMaxListed); ++i) {
     const std::string place = in_words(mistakes[i].place);
     text += "\n  " + place + (place.empty() ? "" : ": ") + in_one_line(mistakes[i].problem) + "; " +
             in_one_line(mistakes[i].remedy);
   }
-  if (mistakes.size() > kMostListed)
+  if (mistakes.size() > kMaxListed)
     text += "\n  and so on.";
   else if (text.back() != '?')
     text += '.';

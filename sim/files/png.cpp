@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-constexpr png_uint_32 kMostPixels = 8192;  // along a side
+constexpr png_uint_32 kMaxPixels = 8192;  // along a side
 
 void write(const std::filesystem::path& file, int width, int height, png_uint_32 format, const void* pixels) {
   write_atomically(file, [&](const std::filesystem::path& temporary) {
@@ -44,7 +44,7 @@ Image<std::uint8_t> read_png(const std::filesystem::path& file) {
   };
   if (!png_image_begin_read_from_file(&png, file.c_str()))
     refuse(std::string("it cannot be read as a PNG (") + png.message + ")");
-  if (png.width > kMostPixels || png.height > kMostPixels)
+  if (png.width > kMaxPixels || png.height > kMaxPixels)
     refuse("it has " + std::to_string(png.width) + " x " + std::to_string(png.height) + " pixels");
   png.format = PNG_FORMAT_GRAY;
   Image<std::uint8_t> image(int(png.width), int(png.height));

@@ -62,7 +62,7 @@ constexpr std::array<bool, 256> kMarks = [] {
   return marks;
 }();
 
-/// Returns the number, from 1, of the line whose dotted key has more than kMostKeyParts parts; 0 if there is none.
+/// Returns the number, from 1, of the line whose dotted key has more than kMaxKeyParts parts; 0 if there is none.
 int line_of_deep_key(std::string_view text) {
   int line = 1, dots = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -75,7 +75,7 @@ int line_of_deep_key(std::string_view text) {
     } else if (c == '#') {
       at = std::min(text.find('\n', at), text.size()) - 1;
     } else if (c == '.') {
-      if (++dots >= kMostKeyParts) return line;
+      if (++dots >= kMaxKeyParts) return line;
     } else {
       dots = 0;
       line += c == '\n';
@@ -202,7 +202,7 @@ TomlDocument::TomlDocument(std::string file, std::string_view text, OnMistake on
   contents_->file = std::move(file);
   contents_->on_mistake = on_mistake;
   if (const int line = line_of_deep_key(text); line > 0) {
-    contents_->add({{line, 1}, "a key has more than " + std::to_string(kMostKeyParts) + " parts", "shorten it"});
+    contents_->add({{line, 1}, "a key has more than " + std::to_string(kMaxKeyParts) + " parts", "shorten it"});
     return;
   }
   try {

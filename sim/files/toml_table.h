@@ -21,7 +21,7 @@ class TomlTable;
 
 /// The most parts of a dotted key in Insonate's files. The parser destroys nested tables recursively, so a key of some
 /// 30,000 parts would overflow the stack.
-inline constexpr int kMostKeyParts = 16;
+inline constexpr int kMaxKeyParts = 16;
 
 /// An inclusive range of numbers. By default it holds every finite number.
 struct NumberRange {
@@ -48,7 +48,7 @@ enum class TomlKind { missing, boolean, number, text, list, table, other };
 /// its tables belong to one thread.
 class TomlDocument {
 public:
-  /// Parses `text`. It is a mistake if the text is not TOML or a key has more than kMostKeyParts parts; the root table
+  /// Parses `text`. It is a mistake if the text is not TOML or a key has more than kMaxKeyParts parts; the root table
   /// is then empty. Throws std::bad_alloc if there is not enough memory.
   /// @param file  the name in error sentences
   TomlDocument(std::string file, std::string_view text, OnMistake on_mistake = OnMistake::throw_first);

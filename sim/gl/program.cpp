@@ -184,7 +184,7 @@ void Program::define(const Defines& defines) {
                             [&](const Variant& variant) { return variant.defines == defines; });
   if (found == variants_.end()) {
     Variant built = build(defines);
-    if (variants_.size() == kMostKept) variants_.pop_back();
+    if (variants_.size() == kMaxKept) variants_.pop_back();
     found = variants_.insert(variants_.end(), std::move(built));
   }
   std::rotate(variants_.begin(), found, found + 1);

@@ -70,11 +70,11 @@ public:
   /// are returned.
   static std::optional<std::string> reload(std::span<Program* const> programs, const ShaderSources& sources);
 
-  /// Builds for other defines; does nothing if the program has these already. The kMostKept variants used last are kept
+  /// Builds for other defines; does nothing if the program has these already. The kMaxKept variants used last are kept
   /// until the next reload(), so that a return to one is free. Any other takes as long as a new program, 50 to 200 ms
   /// with llvmpipe. Throws as the constructor does, and then keeps the current program.
   void define(const Defines& defines);
-  static constexpr std::size_t kMostKept = 16;
+  static constexpr std::size_t kMaxKept = 16;
 
   void use() const { glUseProgram(name()); }
   GLint uniform(const char* name) const { return glGetUniformLocation(this->name(), name); }

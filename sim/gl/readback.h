@@ -15,9 +15,9 @@ namespace insonate::gl {
 class Readback {
 public:
   /// Most pictures in flight: a device that is slower than that gains nothing from more.
-  static constexpr std::size_t kMost = 3;
+  static constexpr std::size_t kMax = 3;
 
-  bool full() const { return under_way_.size() == kMost; }
+  bool full() const { return under_way_.size() == kMax; }
 
   /// Starts to read the red channel of an 8-bit texture as it is now. Throws std::logic_error if full().
   void begin(const Texture& texture);

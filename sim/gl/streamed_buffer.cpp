@@ -17,7 +17,7 @@ void StreamedBuffer::write(const void* data, std::size_t bytes) {
   constexpr GLuint64 kLong_ns = 1'000'000'000;
   if (!used_.empty()) used_.back().last_use.reset(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
   Storage next;
-  if (!used_.empty() && is_past(used_.front().last_use.get(), used_.size() < kMostStorages ? 0 : kLong_ns)) {
+  if (!used_.empty() && is_past(used_.front().last_use.get(), used_.size() < kMaxStorages ? 0 : kLong_ns)) {
     next = std::move(used_.front());
     used_.pop_front();
   }

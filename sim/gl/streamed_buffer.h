@@ -15,7 +15,7 @@ namespace insonate::gl {
 /// compounded picture were the last one.
 class StreamedBuffer {
 public:
-  static constexpr std::size_t kMostStorages = 16;  ///< then a write waits for the device, a second at most
+  static constexpr std::size_t kMaxStorages = 16;  ///< then a write waits for the device, a second at most
 
   /// Replaces all bytes. Throws DeviceRefused if the device has not enough memory.
   void write(const void* data, std::size_t bytes);

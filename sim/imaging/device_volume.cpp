@@ -10,7 +10,7 @@
 namespace insonate::gl {
 namespace {
 
-constexpr int kFirstHu = -1024;  // as in acoustic_volume.glsl
+constexpr int kFirst_hu = -1024;  // as in acoustic_volume.glsl
 constexpr int kLookupSize = 4096;
 
 // Normalised 16-bit integers are exact. 8 bits would make steps of 16 HU over a CT's 4096. A single such step, as an
@@ -26,7 +26,7 @@ Texture upload(const AcousticVolume& volume) {
 TexelBuffer tabulate(const TissueTable& table) {
   std::vector<glm::vec4> lookup;
   for (int i = 0; i < kLookupSize; ++i) {
-    const TissueKnot knot = table.at(kFirstHu + i), next = table.at(kFirstHu + i + 1);
+    const TissueKnot knot = table.at(kFirst_hu + i), next = table.at(kFirst_hu + i + 1);
     lookup.emplace_back(knot.impedance_mrayl, knot.absorption_db_cm_mhz, next.impedance_mrayl - knot.impedance_mrayl,
                         next.absorption_db_cm_mhz - knot.absorption_db_cm_mhz);
   }

@@ -25,14 +25,14 @@ Defines with(const WorkDivision& division, Defines defines = {}) {
   return defines;
 }
 
-Defines traversal(const Settings& settings, double dr_mm, bool group_a_line, bool is_stored) {
-  const double samples_a_length = settings.reflection_length_mm / dr_mm;
-  const auto is = [&](double whole) { return std::abs(samples_a_length - whole) < 1e-9; };
-  return {{"GROUP_A_LINE", flag(group_a_line)},
-          {"EDGES_AT", group_a_line ? "kEdgesAnywhere"  // each sample fetches its own ends
-                       : is(2)      ? "kEdgesAtSamples"
-                       : is(1)      ? "kEdgesAtMiddles"
-                                    : "kEdgesAnywhere"},
+Defines traversal(const Settings& settings, double dr_mm, bool group_per_line, bool is_stored) {
+  const double samples_per_length = settings.reflection_length_mm / dr_mm;
+  const auto is = [&](double whole) { return std::abs(samples_per_length - whole) < 1e-9; };
+  return {{"GROUP_A_LINE", flag(group_per_line)},
+          {"EDGES_AT", group_per_line ? "kEdgesAnywhere"  // each sample fetches its own ends
+                       : is(2)        ? "kEdgesAtSamples"
+                       : is(1)        ? "kEdgesAtMiddles"
+                                      : "kEdgesAnywhere"},
           {"ABSORPTION", flag(settings.absorption)},
           {"SPECKLE", flag(settings.speckle)},
           {"STORED_SPECKLE", flag(is_stored)},
@@ -127,7 +127,7 @@ std::size_t LineStages::set_lines() const {
   return std::size_t(planes_) * lines_.lines.size();
 }
 
-bool LineStages::group_a_line() const {
+bool LineStages::group_per_line() const {
   // For a sweep in parts, the answer is the same for each part.
   return std::size_t(most_planes_) * lines_.lines.size() < division_.lines_that_fill;
 }
@@ -144,7 +144,7 @@ std::size_t LineStages::most_samples() const {
 void LineStages::traverse(const DeviceVolume& volume, std::span<const Pose> patient_from_plane,
                           const Settings& settings) {
   planes_ = int(patient_from_plane.size());
-  traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_a_line(), is_stored(settings))));
+  traverse_.define(with(division_, traversal(settings, lines_.dr_mm(), group_per_line(), is_stored(settings))));
   if (settings.speckle && settings.waves) {
     scatterers_.place(patient_from_plane, settings);
     scatterers_.scattered().bind(3);
@@ -181,7 +181,7 @@ void LineStages::walk(std::size_t lines, const std::vector<PlacedLine>& placed, 
   line_buffer.bind_storage(0);
   scan.bind_storage(1);
   counters.bind_storage(2);
-  dispatch(traverse_, group_a_line() ? lines : groups_of(lines));
+  dispatch(traverse_, group_per_line() ? lines : groups_of(lines));
 }
 
 // In rows, because one row of work groups need not hold all lines.

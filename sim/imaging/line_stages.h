@@ -80,7 +80,7 @@ private:
   void prepare_lattice(const Settings& settings);
   void prepare_beam(const Settings& settings);
   std::size_t set_lines() const;
-  bool group_a_line() const;
+  bool group_per_line() const;
   std::size_t most_samples() const;
   void walk(std::size_t lines, const std::vector<PlacedLine>& placed, StreamedBuffer& line_buffer,
             const TexelBuffer& scan, const Buffer& counters);

@@ -20,10 +20,10 @@ namespace {
 constexpr double kLargestQuantum = 32000;  // of the 16 bits, with room for rounding
 // The parts of a sum of many scatterers stay below six times its root mean square, 8.5 standard deviations. Those of a
 // few scatterers stay below 6.
-constexpr double kMostRms = 6, kMostOfFew = 6;
+constexpr double kMaxRms = 6, kMaxOfFew = 6;
 
 double quanta_of(const ScanLines& lines, const Settings& settings) {
-  return kLargestQuantum / (kMostRms * scatterer_rms(lines, settings) + kMostOfFew);
+  return kLargestQuantum / (kMaxRms * scatterer_rms(lines, settings) + kMaxOfFew);
 }
 
 double slice_half_mm(const ScanLines& lines, const Settings& settings) {

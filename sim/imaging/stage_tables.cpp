@@ -27,7 +27,7 @@ constexpr double kLn10 = 2.302585092994046;
 // 0.004 dB. The beam's width carries the echo into neighbouring shadows, where scatterers are weaker. Clutter of as
 // much covers it there. Without clutter the share is smaller, so that 30 dB of shadow do not reveal the tilt.
 constexpr double kUnseenShare = 0.001, kUnseenShareInShadow = 1e-6;
-constexpr double kMostBlend = 1e-3;  // limit for the blend above: beyond it, reverberation would still show the tilt
+constexpr double kMaxBlend = 1e-3;  // limit for the blend above: beyond it, reverberation would still show the tilt
 
 /// The part of each pixel's window that lies inside the fan, rows first, as smooth.comp and fuse.comp sum.
 class InsideWindow {
@@ -195,12 +195,12 @@ bool mirrors(const Settings& settings) {
 
 double least_alpha_with_normal(const Settings& settings) {
   if (!settings.skipping) return 0;
-  return std::clamp(clutter_share(settings), kUnseenShareInShadow, kUnseenShare) * std::min(settings.blend, kMostBlend);
+  return std::clamp(clutter_share(settings), kUnseenShareInShadow, kUnseenShare) * std::min(settings.blend, kMaxBlend);
 }
 
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
                                    const Gaussian& transmission) {
-  const double dr = lines.dr_mm(), samples_a_length = settings.reflection_length_mm / dr;
+  const double dr = lines.dr_mm(), samples_per_length = settings.reflection_length_mm / dr;
   SimulationParameters p{};
   p.lines = int(lines.lines.size());
   p.samples = lines.samples;
@@ -209,8 +209,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   p.height = settings.image_height;
   p.r_min_mm = float(lines.r_min_mm);
   p.dr_mm = float(dr);
-  p.half_reflection_length = float(samples_a_length / 2);
-  p.reflection_exponent = float(1 / samples_a_length);
+  p.half_reflection_length = float(samples_per_length / 2);
+  p.reflection_exponent = float(1 / samples_per_length);
   p.absorption_per_sample = float(settings.frequency_mhz * dr / 100 * kLn10);
   p.coupling_depth_mm = float(coupling_depth_mm(settings));
   p.least_alpha_with_normal = float(least_alpha_with_normal(settings));

@@ -17,7 +17,7 @@ void check_within(const char* simulator, const char* what, double value, double 
 }  // namespace
 
 void check_probe(const char* simulator, const Probe& probe, double depth_mm) {
-  check_within(simulator, "the depth in mm", depth_mm, kLeastDepthMm, kMostDepthMm);
+  check_within(simulator, "the depth in mm", depth_mm, kMinViewDepth_mm, kMaxViewDepth_mm);
   check_within(simulator, "the number of scan lines", probe.lines, 1, 4096);
   check_within(simulator, "the widest aperture in mm", probe.aperture_mm, 1, 200);
   if (probe.kind == ProbeKind::curvilinear)
@@ -29,7 +29,7 @@ void check_probe(const char* simulator, const Probe& probe, double depth_mm) {
 }
 
 void check_pose(const char* simulator, const Pose& patient_from_probe) {
-  if (const auto why = why_not_rigid(patient_from_probe.matrix(), kMostDistanceMm))
+  if (const auto why = why_not_rigid(patient_from_probe.matrix(), kMaxDistance_mm))
     throw std::invalid_argument(std::string(simulator) + ": the pose: " + *why);
 }
 

@@ -7,11 +7,11 @@
 /// the place. These checks refuse what a caller lets through, before a picture is made of it.
 namespace insonate::gl {
 
-inline constexpr double kLeastDepthMm = 0.1, kMostDepthMm = 1000;
+inline constexpr double kMinViewDepth_mm = 0.1, kMaxViewDepth_mm = 1000;
 
 /// Largest distance from the volume's frame to the probe, mm. It exceeds what a CT's origin may be off by (1e6 mm per
 /// axis) plus what trackers and their registration transforms can add.
-inline constexpr double kMostDistanceMm = 1e7;
+inline constexpr double kMaxDistance_mm = 1e7;
 
 /// Throw std::invalid_argument whose text begins with the simulator's name. check_probe() refuses a depth outside these
 /// limits, and a probe with a number for its lines outside the range that Probe documents. check_pose() refuses a pose

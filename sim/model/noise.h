@@ -81,12 +81,12 @@ inline constexpr double kClutterTail_mm = 5;  ///< estimate: 0.9 dB per mm, fast
 /// Ultrasound in Medicine and Biology 40, 2014: layers of fat and connective tissue cause it). With f of waves.h and
 /// means over the lines of the plane at sample k:
 ///
-///     E(k) = max(mean of min(|f|^2, kLayerShare I^2) - kLeastLayerEcho, 0)
+///     E(k) = max(mean of min(|f|^2, kLayerShare I^2) - kMinLayerEcho, 0)
 ///     P(n) = sum_i E(i) E(n - i)
 ///     H(k) = kWallReturn (dr/l) (P(k - 1) + P(k)) / 2
 ///     J(k) = mean of I^2
 ///
-/// The power min(H, I^2 H/J) is added to the noise's, and 0 where J is up to kLeastEcho. Both values of a depth and I^2
+/// The power min(H, I^2 H/J) is added to the noise's, and 0 where J is up to kMinEcho. Both values of a depth and I^2
 /// are interpolated at pixels. The ways of echoes from samples i and j add up to that of one between samples i + j and
 /// i + j + 1. I^2/J keeps the haze out of shadows: sound that is sent in again does not get there either.
 ///
@@ -96,6 +96,6 @@ inline constexpr double kClutterTail_mm = 5;  ///< estimate: 0.9 dB per mm, fast
 /// - kWallReturn is an estimate. It gives -17 dB at the front of the built-in patient's bladder, relative to the
 ///   scatterers beside it. Lediju et al. (Ultrasonic Imaging 30, 2008) measured 0 to -30 dB in five bladders, relative
 ///   to the wall's mean.
-/// - kLeastLayerEcho keeps products within single precision.
+/// - kMinLayerEcho keeps products within single precision.
 
 }  // namespace insonate

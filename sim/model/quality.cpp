@@ -9,8 +9,8 @@ namespace {
 
 /// Scales a number of samples or pixels.
 int scaled(int count, double share) {
-  constexpr int kMost = 8192;
-  return std::clamp(int(std::lround(share * count)), 1, kMost);
+  constexpr int kMax = 8192;
+  return std::clamp(int(std::lround(share * count)), 1, kMax);
 }
 
 }  // namespace

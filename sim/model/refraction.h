@@ -17,11 +17,11 @@ namespace insonate {
 ///
 /// A plane interface thus costs the root of 1 + q/2, which is 0.1 dB at 30 degrees between fat and liver, and the limb
 /// of a cyst, a vessel or a kidney casts a thin shadow. s is limited to 2, because a beam of some width passes a limb
-/// in part. ln c is linear in density, with different slopes below and above water, between kLeastRefractingHu and
-/// kMostRefractingHu. Gas and bone count as these limits, because they reflect almost everything anyway.
+/// in part. ln c is linear in density, with different slopes below and above water, between kMinRefracting_hu and
+/// kMaxRefracting_hu. Gas and bone count as these limits, because they reflect almost everything anyway.
 ///
 /// The slopes are those of fat (-100 HU, 1450 m/s, Szabo) and water (1524 m/s, Duck), and of water and liver (60 HU,
-/// 1595 m/s, Mast, ARLO 1, 2000). kLeastRefractingHu is fat mixed with some gas, kMostRefractingHu the densest soft
+/// 1595 m/s, Mast, ARLO 1, 2000). kMinRefracting_hu is fat mixed with some gas, kMaxRefracting_hu the densest soft
 /// tissue.
 inline constexpr double kDeflection_rad = 0.1;  ///< half angle of an aperture of f-number 5
 inline constexpr double kDeflection_mm =

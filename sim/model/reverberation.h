@@ -19,7 +19,7 @@ namespace insonate {
 /// and 8 degrees, where the receiving beam is 1 to 2 mm wide. So compounding weakens such repeats, as it does on
 /// machines (Entrekin et al., Seminars in Ultrasound, CT and MRI 22, 2001). Samples i before j make the echo
 ///
-///     V(c_j + k (c_j - c_i)) gets s R_j g^k,  k from 1 to kMostRepeats,     g = w A_i A_j T^2
+///     V(c_j + k (c_j - c_i)) gets s R_j g^k,  k from 1 to kMaxRepeats,     g = w A_i A_j T^2
 ///
 /// - In each round the sound passes twice through what lies between: T = I(j - l + dr) / I(i + l), at most 1, with l in
 ///   whole samples, rounded up.
@@ -27,19 +27,19 @@ namespace insonate {
 /// - s = dr/l shares a sharp interface's R among the samples that show it; it is 1 for the face.
 /// - An echo has the shape of R_j: sample k of the echo lies as far from its place as j does from c_j.
 /// - Between samples the cubic B-spline shares an echo among the nearest four, so that no edge of it appears at once
-///   when the probe moves. A share below kLeastEcho (stages.h) is 0.
-/// - Rounds below kLeastRound are left out, because thousands of samples reflect as much. Behind gas and bone they
+///   when the probe moves. A share below kMinEcho (stages.h) is 0.
+/// - Rounds below kMinRound are left out, because thousands of samples reflect as much. Behind gas and bone they
 ///   could be visible.
-/// - g counts as g (1 - (kLeastRound/g)^2)^8, and as 0 below kLeastRound, so that a repeat rises from below all visible
+/// - g counts as g (1 - (kMinRound/g)^2)^8, and as 0 below kMinRound, so that a repeat rises from below all visible
 ///   levels while the probe moves. If it rose with a slope it would appear at once, as decibels have no slope at 0.
-/// - For a round from the face, A_j T^2 counts in this way, with kLeastFromFace; the face's own A multiplies the
+/// - For a round from the face, A_j T^2 counts in this way, with kMinFromFace; the face's own A multiplies the
 ///   result.
 ///
 /// V passes through the beam's window (4) as R does. It is not an echo of scatterers, so it adds to (6):
 ///     U = (R + b T) S + V
 ///
-/// kMostReflectors is how many samples of a line count: the first ones above kLeastRound. Where I is less than
-/// kLeastReverberant, sound is too weak to return a second time.
+/// kMaxReflectors is how many samples of a line count: the first ones above kMinRound. Where I is less than
+/// kMinReverberant, sound is too weak to return a second time.
 
 /// Returns A of the face for the lines of one look.
 /// @param steering  LineFan::steering, rad

@@ -41,12 +41,12 @@ Settings paper_settings(double depth_mm, int samples) {
 Settings trainer_settings(double frequency_mhz, double depth_mm) {
   constexpr double kSoftTissueAbsorption = 0.5;                // dB/(cm MHz), what machines assume for an abdomen
   constexpr double kAxialResolutionCycles = 0.6 * 3.5 / 1.54;  // length of the pulse in cycles: 0.6 mm at 3.5 MHz
-  constexpr int kFewestSamples = 16, kMostSamples = 8192;
+  constexpr int kFewestSamples = 16, kMaxSamples = 8192;
   Settings settings;
   settings.frequency_mhz = frequency_mhz;
   // Two samples per reflection length, which share their edges in the volume. The length is about the axial resolution.
   const double axial_resolution_mm = kAxialResolutionCycles * 1.54 / frequency_mhz;
-  settings.samples = std::clamp(int(std::lround(2 * depth_mm / axial_resolution_mm)), kFewestSamples, kMostSamples);
+  settings.samples = std::clamp(int(std::lround(2 * depth_mm / axial_resolution_mm)), kFewestSamples, kMaxSamples);
   settings.reflection_length_mm = 2 * depth_mm / settings.samples;
   settings.focused_beam = true;
   settings.focus_mm = std::clamp(depth_mm / 2, 5.0, 400.0);  // sonographers are taught to look there
@@ -63,7 +63,7 @@ Settings trainer_settings(double frequency_mhz, double depth_mm) {
       std::clamp(std::cbrt(settings.reflection_length_mm * lateral_mm * settings.slice_thickness_mm / 10), 0.05, 10.0);
   const double two_way_db = 2 * kSoftTissueAbsorption * frequency_mhz * depth_mm / 10;
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i)
-    settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMostTimeGainDb);
+    settings.tgc_db[i] = std::min(two_way_db * double(i) / double(settings.tgc_db.size() - 1), kMaxTimeGain_db);
   return settings;
 }
 

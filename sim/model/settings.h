@@ -27,9 +27,9 @@ enum class GreyMap {
 
 /// The largest time gain, dB. Sound that has lost as much counts as silent, and 10^30 with the gain on top still
 /// fits single precision.
-inline constexpr double kMostTimeGainDb = 300;
+inline constexpr double kMaxTimeGain_db = 300;
 /// What a machine shows from black to white, until somebody turns the knob.
-inline constexpr double kUsualDynamicRangeDb = 60;
+inline constexpr double kUsualDynamicRange_db = 60;
 /// A machine's Settings::ring_down: white at the face.
 inline constexpr double kUsualRingDown = 1;
 
@@ -98,7 +98,7 @@ struct Settings {
   // Display (7): like the controls of the same names on machines (Szabo, Diagnostic Ultrasound Imaging, 10)
   double gain_db = 0;              ///< -60 to 60
   std::array<double, 8> tgc_db{};  ///< time gain at 8 depths from face to full depth, linear between; -300 to 300
-  double dynamic_range_db = kUsualDynamicRangeDb;  ///< beta, 1 to 200
+  double dynamic_range_db = kUsualDynamicRange_db;  ///< beta, 1 to 200
   ReferenceLevel reference_level = ReferenceLevel::fixed;
   double fixed_level = 0.014;  ///< the U that is white before gain, 1e-12 to 1e6
   GreyMap grey_map = GreyMap::linear;

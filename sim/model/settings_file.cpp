@@ -52,7 +52,7 @@ const std::vector<Key<Settings>>& all_keys() {
       number("noise_db", &S::noise_db, -200, 0),
       number("ring_down", &S::ring_down, 0, 10),
       number("gain_db", &S::gain_db, -60, 60),
-      numbers("tgc_db", &S::tgc_db, -kMostTimeGainDb, kMostTimeGainDb),
+      numbers("tgc_db", &S::tgc_db, -kMaxTimeGain_db, kMaxTimeGain_db),
       number("dynamic_range_db", &S::dynamic_range_db, 1, 200),
       choice("reference_level", &S::reference_level, {"frame_maximum", "fixed"}),
       number("fixed_level", &S::fixed_level, 1e-12, 1e6),

@@ -17,7 +17,7 @@ namespace insonate {
 ///     R = alpha I^2 |d . n|                                                                            (3)
 ///     T = I^2 if two_way, else I
 ///     U = (G1 R + b G2 T) S + additive echoes                                                          (6)
-///     E = U 10^((gain_db + t)/10),  0 where U is below kLeastEcho
+///     E = U 10^((gain_db + t)/10),  0 where U is below kMinEcho
 ///     grey = 255 m(clamp(1 + 10 log10(E/L) / dynamic_range_db, 0, 1)),  0 where E is 0                 (7)
 ///
 /// n equals the direction of Z's gradient where Z changes evenly with density. It comes from differences of HU over l
@@ -30,7 +30,7 @@ namespace insonate {
 ///
 /// Coupling: nearer to the face than coupling_depth_mm(), air counts as water without echo (coupling.h). Beyond, air
 /// reflects by (1) as anywhere, so that a face that does not touch shows nothing. Where the slice has several planes
-/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight. An R or T below kLeastEcho is 0: it has
+/// (sim/model/beam.h), I, R and the scatterers' echo are their sums by weight. An R or T below kMinEcho is 0: it has
 /// lost 300 dB, as much as time gain can restore.
 ///
 /// In (6) R and S are after the beam's width (4), sim/model/beam.h. G1 and G2 are Gaussians in the picture of
@@ -51,7 +51,7 @@ struct Stages {
   Image<Real> reflection_beam;   ///< R after the beam's width (4)
   Image<Real> transmission;      ///< T of (6): I, or I^2 where the echo's way back counts
   Image<Real> repeated;          ///< V of reverberation.h, after the beam's width; 0 where there is none
-  Image<Real> speckle;           ///< S: envelope of the scatterers' echo, mean 1 in liver; 0 at kSilentDb and below
+  Image<Real> speckle;           ///< S: envelope of the scatterers' echo, mean 1 in liver; 0 at kSilent_db and below
   Image<Real> scattered;         ///< with waves: expected power of the scatterers' echo, sum_p g_p b T_p A_p^2
   Image<Real> echo_re, echo_im;  ///< with waves: e
   Image<Real> wave_re, wave_im;  ///< with waves: f

@@ -12,7 +12,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kMostCells = 1 << 22, kMostInBin = 64;
+constexpr double kMaxCells = 1 << 22, kMaxInBin = 64;
 
 // Returns the distance between neighbouring lines, perpendicular to them, mm.
 double spacing_mm(const ScanLines& lines, double r_mm) {
@@ -58,7 +58,7 @@ double scatterer_pitch_mm(const ScanLines& lines, const Settings& settings) {
       std::max(slice_thickness_at_mm(settings, lines.r_min_mm), slice_thickness_at_mm(settings, lines.r_max_mm));
   const double volume = double(lines.lines.size()) * spacing_mm(lines, middle) * length * slice;
   const double in_bin = most_bin_volume(lines, settings);
-  return std::max({settings.speckle_cell_mm, std::cbrt(volume / kMostCells), std::cbrt(in_bin / kMostInBin)});
+  return std::max({settings.speckle_cell_mm, std::cbrt(volume / kMaxCells), std::cbrt(in_bin / kMaxInBin)});
 }
 
 glm::dmat4 cells_from_patient(double pitch_mm) {

@@ -25,7 +25,7 @@
 ///     e   = kMirrorShare sum_p g_p q_p I_p + n (sum_p g_p (kRoughShare q_p I_p + b^(1/2) A_p T_p^(1/2))^2)^(1/2)
 ///     f   = e and its mirror images (mirror_image.h), convolved with the pulse along the line and with the beam across
 ///     the lines
-///     U   = |f + d|^2 + V, with noise as in noise.h, d = ring_down_at(); 0 up to kLeastEcho
+///     U   = |f + d|^2 + V, with noise as in noise.h, d = ring_down_at(); 0 up to kMinEcho
 ///
 /// a_s is the scatterer's complex amplitude, v the slice's window at its distance z_s from the imaging plane, h linear
 /// weights of the two lines and the two samples nearest to it. c makes the mean of |f|^2 equal to b T A^2 in uniform
@@ -37,7 +37,7 @@
 /// impedance falls, m = specular_exponent. The last factor keeps the noise and the texture of a CT from counting as
 /// surfaces: what reflects less than scatterers do is not an interface. kMirrorShare and kRoughShare are estimates:
 /// organs' surfaces are smooth mirrors only in part, so that their echo is patchy where they are met squarely, and
-/// does not vanish where they are not. A = 10^(e/20) - 10^(kSilentDb/20) is the amplitude of scatterers of
+/// does not vanish where they are not. A = 10^(e/20) - 10^(kSilent_db/20) is the amplitude of scatterers of
 /// echogenicity e dB. I, T, b, V are those of sim/model/stages.h.
 ///
 /// So fully developed speckle has the statistics of a Rayleigh envelope at 20 log10: a standard deviation of 5.57 dB

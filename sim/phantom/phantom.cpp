@@ -96,7 +96,7 @@ public:
       if (most_free < 1e-4f) break;
     }
 
-    for (std::size_t n = 0; n < points.count(); ++n) hu[n] += free[n] * float(kAirHu);
+    for (std::size_t n = 0; n < points.count(); ++n) hu[n] += free[n] * float(kAir_hu);
     add_textures(points, owner, hu);
     for (std::size_t n = 0; n < points.count(); ++n) {
       if (owner[n] >= 0) subject.labels.voxels[offsets[n]] = label_of(owner[n]).label.value;
@@ -141,14 +141,15 @@ private:
 // Returns the pose of a probe pressed into the skin. The skin is the last boundary of the body along the beam, from the
 // aim backwards.
 Pose pose_on_skin(const PlannedView& planned, const Volume<std::int16_t>& ct, const std::string& recipe_name) {
-  constexpr double kSkinHu = -500;  // half way between air and soft tissue: within a fraction of a voxel of the surface
+  constexpr double kSkin_hu =
+      -500;  // half way between air and soft tissue: within a fraction of a voxel of the surface
   const double step = ct.grid.spacing.x / 4;
   const double longest = glm::length(ct.grid.spacing * glm::dvec3(ct.grid.size));
   double skin = -1;
   for (int n = 0; step * n < longest; ++n) {
     const double way = step * n;
     const glm::dvec3 p = planned.aim - planned.beam * way;
-    if (sample_trilinear(ct, ct.grid.index_from_patient(p)) > kSkinHu) skin = way;
+    if (sample_trilinear(ct, ct.grid.index_from_patient(p)) > kSkin_hu) skin = way;
   }
   const double face = skin - planned.press_mm;
   if (face <= 0)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kFar_mm = 2000;
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
-constexpr double kMostVoxelsASide = 2048;
-constexpr std::size_t kMostVoxels = std::size_t(1) << 29;  // 1.6 GB with their labels
+constexpr double kMaxVoxelsPerSide = 2048;
+constexpr std::size_t kMaxVoxels = std::size_t(1) << 29;  // 1.6 GB with their labels
 
 Grid read_grid(const TomlTable& table) {
   const glm::dvec3 from = table.vector("from", {-kFar_mm, kFar_mm});
@@ -26,14 +26,14 @@ Grid read_grid(const TomlTable& table) {
   grid.spacing = glm::dvec3(pitch);
   for (int axis = 0; axis < 3; ++axis) {
     const double voxels = std::floor((to[axis] - from[axis]) / pitch);
-    if (voxels < 2 || voxels > kMostVoxelsASide)
+    if (voxels < 2 || voxels > kMaxVoxelsPerSide)
       table.fail("to", "the grid has " + std::to_string(long(voxels)) + " voxels along axis " + std::to_string(axis),
                  "choose from, to and voxel_mm for 2 to 2048");
     grid.size[axis] = int(voxels);
   }
-  if (grid.count() > kMostVoxels)
+  if (grid.count() > kMaxVoxels)
     table.fail("voxel_mm", "the grid has " + std::to_string(grid.count()) + " voxels",
-               "choose from, to and voxel_mm for at most " + std::to_string(kMostVoxels));
+               "choose from, to and voxel_mm for at most " + std::to_string(kMaxVoxels));
   grid.origin = from + grid.spacing / 2.0;
   return grid;
 }

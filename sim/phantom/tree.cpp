@@ -14,7 +14,7 @@ namespace insonate {
 namespace {
 
 constexpr float kStep_mm = 3.0f;  // between the nodes of a branch, as on a tube's spline
-constexpr int kMostSteps = 64;    // of a branch; longer ones have longer steps
+constexpr int kMaxSteps = 64;     // of a branch; longer ones have longer steps
 
 // Unlike normalize() it has a value for a vector without length.
 glm::vec3 unit(const glm::vec3& v) {
@@ -189,7 +189,7 @@ private:
     const auto random = [&](std::uint32_t axis) { return unit_float(hash(rule_.seed, attempt, axis, 2)) - 0.5f; };
     const glm::vec3 leaving = unit(way / length + 0.7f * from.flow) * length;
     const glm::vec3 arriving = unit(way / length + 1.2f * glm::vec3(random(0), random(1), random(2))) * length;
-    const int steps = std::min(int(std::ceil(length / kStep_mm)), kMostSteps);
+    const int steps = std::min(int(std::ceil(length / kStep_mm)), kMaxSteps);
     std::vector<glm::vec3> path;
     for (int step = 1; step <= steps; ++step) {
       const float t = float(step) / float(steps), u = 1 - t;

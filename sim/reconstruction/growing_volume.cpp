@@ -39,7 +39,7 @@ bool GrowingVolume::make_room(const TrackedPicture& picture) {
   }
   // Compared as real numbers: the sizes of a stray pose do not fit an int.
   const glm::dvec3 size = glm::dvec3(grid.size) + before + behind;
-  if (size.x * size.y * size.z > double(most_voxels_) || std::max({size.x, size.y, size.z}) > kMostReconstructedSide)
+  if (size.x * size.y * size.z > double(most_voxels_) || std::max({size.x, size.y, size.z}) > kMaxReconstructedSide)
     return false;
   if (before + behind != glm::dvec3(0.0)) reconstruction_->extend(glm::ivec3(before), glm::ivec3(behind));
   return true;
@@ -56,7 +56,7 @@ void GrowingVolume::rebuild() {
 ReconstructedVolume GrowingVolume::finish() {
   if (pictures_.empty()) throw std::logic_error("a volume of no pictures");
   const Pose mean = extent_of(pictures_).patient_from_sweep;
-  if (angle_between_deg({reconstruction_->grid().direction, {}}, {mean.rotation, {}}) > kMostSkew_deg) rebuild();
+  if (angle_between_deg({reconstruction_->grid().direction, {}}, {mean.rotation, {}}) > kMaxSkew_deg) rebuild();
   return reconstruction_->filled();
 }
 

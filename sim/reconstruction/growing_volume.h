@@ -22,10 +22,10 @@ public:
   /// Inserts a picture, whose region must not be empty.
   void add(TrackedPicture picture);
 
-  /// Returns the volume of all pictures so far, with its holes filled: its grid is at most kMostSkew_deg askew of their
+  /// Returns the volume of all pictures so far, with its holes filled: its grid is at most kMaxSkew_deg askew of their
   /// mean plane. Throws std::logic_error without a picture.
   ReconstructedVolume finish();
-  static constexpr double kMostSkew_deg = 5;
+  static constexpr double kMaxSkew_deg = 5;
 
   const std::vector<TrackedPicture>& pictures() const { return pictures_; }
   /// Returns why voxels are larger than was asked for, as a sentence; empty if they are not.

@@ -14,9 +14,9 @@
 namespace insonate {
 namespace {
 
-constexpr float kMostSamples = 16384;
+constexpr float kMaxSamples = 16384;
 /// Rounding alone decides whether a pixel that lies on a voxel's middle has such weights at the voxels beside it.
-constexpr float kLeastWeight = 1e-3f;
+constexpr float kMinWeight = 1e-3f;
 /// Slabs along j that threads take. Their number does not affect results.
 constexpr int kSlabs = 16;
 
@@ -93,14 +93,14 @@ void Reconstruction::insert_slab(const TrackedPicture& picture, int first_j, int
 }
 
 inline void Reconstruction::insert(std::size_t at, float value, float weight) {
-  if (weight < kLeastWeight) return;
+  if (weight < kMinWeight) return;
   Sum& sum = sums_[at];
   if (settings_.compounding != Compounding::mean && touched_by_[at] != pictures_) {
     if (touched_by_[at] != 0) before_[at] = value_at(at);
     touched_by_[at] = std::uint32_t(pictures_);
     sum = {};
   }
-  if (sum.weight >= kMostSamples) return;
+  if (sum.weight >= kMaxSamples) return;
   sum.value += weight * value;
   sum.weight += weight;
 }

@@ -12,12 +12,12 @@ namespace {
 
 Pose mean_plane(std::span<const TrackedPicture> pictures) {
   // Below this the rotations cancel out, and the nearest rotation would be arbitrary.
-  constexpr double kLeastDeterminant = 0.1;
+  constexpr double kMinDeterminant = 0.1;
   glm::dmat3 sum(0.0);
   for (const TrackedPicture& picture : pictures) sum += plane_of(picture.patient_from_pixel).rotation;
   sum /= double(pictures.size());
   const Pose middle = plane_of(pictures[pictures.size() / 2].patient_from_pixel);
-  if (glm::determinant(sum) < kLeastDeterminant) return middle;
+  if (glm::determinant(sum) < kMinDeterminant) return middle;
   return {pose_from_matrix(glm::dmat4(sum)).rotation, middle.translation};
 }
 
@@ -56,7 +56,7 @@ GridChoice choose_grid(std::span<const TrackedPicture> pictures, double voxel_mm
     // Compared as real numbers: the sizes of a stray pose do not fit an int.
     const glm::dvec3 size = glm::ceil((extent.high_mm - extent.low_mm) / voxel) + 3.0;
     return size.x * size.y * size.z <= double(most_voxels) &&
-           std::max({size.x, size.y, size.z}) <= kMostReconstructedSide;
+           std::max({size.x, size.y, size.z}) <= kMaxReconstructedSide;
   };
   double taken_mm = voxel_mm;
   while (!fits(taken_mm)) taken_mm *= kStep;

@@ -10,9 +10,9 @@
 namespace insonate {
 
 /// The most voxels of a reconstructed volume. Its sums then take 256 MiB, and a result 64 MiB.
-inline constexpr std::size_t kMostReconstructedVoxels = std::size_t(1) << 25;
+inline constexpr std::size_t kMaxReconstructedVoxels = std::size_t(1) << 25;
 /// The most voxels along one side, so that any graphics card holds the volume as a texture.
-inline constexpr int kMostReconstructedSide = 1024;
+inline constexpr int kMaxReconstructedSide = 1024;
 
 /// The frame and the extent of pictures' regions in it.
 struct SweepExtent {
@@ -33,11 +33,11 @@ struct GridChoice {
 
 /// Returns a grid of cubic voxels around all pictures, with one voxel of margin. Its axes are those of the mean plane:
 /// i lateral, j into the depth, k along the elevation. Voxels are enlarged by steps of a tenth until there are at most
-/// `most_voxels`, and at most kMostReconstructedSide along each side.
+/// `most_voxels`, and at most kMaxReconstructedSide along each side.
 /// @param pictures     at least one
 /// @param voxel_mm     0.05 to 20
 /// @param most_voxels  at least 1000
 GridChoice choose_grid(std::span<const TrackedPicture> pictures, double voxel_mm,
-                       std::size_t most_voxels = kMostReconstructedVoxels);
+                       std::size_t most_voxels = kMaxReconstructedVoxels);
 
 }  // namespace insonate

@@ -25,7 +25,7 @@ WallClutter wall_clutter_reference(const Stages<double>& stages, const ScanLines
       clutter.arriving.at(line, k) = squared;
       sum += std::min(echo, kLayerShare * squared);
     }
-    layers.push_back(std::max(sum / n - kLeastLayerEcho, 0.0));
+    layers.push_back(std::max(sum / n - kMinLayerEcho, 0.0));
   }
   for (int i = 0; i < samples; ++i)
     for (int j = 0; i + j < samples; ++j) {
@@ -37,7 +37,7 @@ WallClutter wall_clutter_reference(const Stages<double>& stages, const ScanLines
   for (int k = 0; k < samples; ++k) {
     double mean = 0;
     for (int line = 0; line < n; ++line) mean += clutter.arriving.at(line, k) / n;
-    if (mean <= kLeastEcho)
+    if (mean <= kMinEcho)
       clutter.most.at(0, k) = 0;
     else
       clutter.per_arriving.at(0, k) = clutter.most.at(0, k) / mean;

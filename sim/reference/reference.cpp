@@ -97,13 +97,13 @@ Image<double> smoothed(const Image<double>& image, const Image<std::uint8_t>& in
 
 /// Returns the share of gel in what lies within the gel layer, 0 to 1 (sim/tissue/coupling.h).
 static double gel_share(double hu) {
-  return std::clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+  return std::clamp((kCouplingTissue_hu - hu) / (kCouplingTissue_hu - kCouplingAir_hu), 0.0, 1.0);
 }
 
 Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm) {
   if (r_mm >= coupling_depth_mm) return medium;
   const double gel = gel_share(medium.hu);
-  return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kLeastEchogenicityDb};
+  return {(1 - gel) * medium.hu, (1 - gel) * medium.echogenicity_db + gel * kMinEchogenicity_db};
 }
 
 MediumField trilinear_field(const AcousticVolume& volume) {
@@ -183,16 +183,16 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       if (k == 0) intensity *= absorbed(dr / 2);
       scan.intensity.at(line, k) = intensity;
       double directed = settings.waves ? std::pow(cosine, settings.specular_exponent) : cosine;
-      if (settings.waves && coupled > l / 2 + kLeastGel_mm && r - l / 2 < coupled && r + l / 2 >= coupled)
+      if (settings.waves && coupled > l / 2 + kMinGel_mm && r - l / 2 < coupled && r + l / 2 >= coupled)
         directed *= 1 + (kFreeGelShare - 1) * gel_share(hu_behind);
       scan.reflection.at(line, k) = heard(alpha * intensity * intensity * directed);  // (3)
       const double per_tenfold = settings.waves ? 20 : 10;  // amplitudes in dB of power, or as the paper's are
       const double amplitude =
-          std::max(std::pow(10.0, here.echogenicity_db / per_tenfold) - std::pow(10.0, kSilentDb / per_tenfold), 0.0);
+          std::max(std::pow(10.0, here.echogenicity_db / per_tenfold) - std::pow(10.0, kSilent_db / per_tenfold), 0.0);
       if (settings.waves) {
         scan.amplitude.at(line, k) = amplitude;
         const double weak = settings.blend / 2,
-                     surface = alpha * alpha / std::max(alpha * alpha + weak * weak, kLeastEcho);
+                     surface = alpha * alpha / std::max(alpha * alpha + weak * weak, kMinEcho);
         scan.mirror.at(line, k) = std::copysign(std::sqrt(alpha * directed) * surface, behind - before);
       } else {
         const std::complex<double> echo = stored && settings.speckle
@@ -205,7 +205,7 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
       intensity *= std::pow(1 - alpha, dr / l) * absorbed(dr);  // (5)
       if (settings.edge_shadow) {
         const auto log_speed = [](double density) {
-          return std::clamp(density, kLeastRefractingHu, kMostRefractingHu) *
+          return std::clamp(density, kMinRefracting_hu, kMaxRefracting_hu) *
                  (density < 0 ? kLogSpeedBelowWater : kLogSpeedAboveWater);
         };
         const glm::dvec2 rise(log_speed(right) - log_speed(left), log_speed(above) - log_speed(below));
@@ -219,7 +219,7 @@ ReferenceScan traverse_reference(const MediumField& field, const TissueTable& ta
 }
 
 double heard(double echo) {
-  return echo > kLeastEcho ? echo : 0;
+  return echo > kMinEcho ? echo : 0;
 }
 
 namespace {

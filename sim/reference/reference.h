@@ -31,7 +31,7 @@ Medium with_gel(const Medium& medium, double r_mm, double coupling_depth_mm);
 /// Returns the trilinear field of a volume, with air outside. The volume must outlive it.
 MediumField trilinear_field(const AcousticVolume& volume);
 
-/// Returns the echo, or 0 if it is not above kLeastEcho.
+/// Returns the echo, or 0 if it is not above kMinEcho.
 double heard(double echo);
 
 /// Runs model S in double precision and plain loops, as the formulas of sim/model/stages.h read. Everything faster is

@@ -42,7 +42,7 @@ public:
   double behind(int k) const { return intensity(k + near_); }
   double strength(int k) const {
     const double arriving = intensity(k);
-    return arriving > kLeastReverberant ? std::min(reflection_.at(line_, k) / (arriving * arriving), 1.0) : 0;
+    return arriving > kMinReverberant ? std::min(reflection_.at(line_, k) / (arriving * arriving), 1.0) : 0;
   }
 
   /// Returns the place of the interface that a sample shows; its own counts `own` besides.
@@ -72,11 +72,11 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
   for (int line = 0; line < intensity.width; ++line) {
     const Along along(intensity, reflection, lines, settings, line);
     std::vector<Reflector> reflectors;
-    for (int k = 0; k < d && reflectors.size() < std::size_t(kMostReflectors); ++k)
-      if (along.strength(k) > kLeastRound) reflectors.push_back({k, along.strength(k), along.place_mm(k)});
+    for (int k = 0; k < d && reflectors.size() < std::size_t(kMaxReflectors); ++k)
+      if (along.strength(k) > kMinRound) reflectors.push_back({k, along.strength(k), along.place_mm(k)});
 
     const auto repeat = [&](const Reflector& deep, double echo, double apart_mm, double gain) {
-      for (int n = 1; n <= kMostRepeats && apart_mm > 0; ++n) {
+      for (int n = 1; n <= kMaxRepeats && apart_mm > 0; ++n) {
         const double position = deep.sample + n * apart_mm / dr;
         if (position >= d + 1) break;  // the spline of a later position no longer covers the last sample
         echo *= gain;
@@ -88,14 +88,14 @@ Image<double> reverberation_reference(const Image<double>& intensity, const Imag
       const Reflector& deep = reflectors[j];
       const double echo = reflection.at(line, deep.sample), before = along.before(deep.sample);
       repeat(deep, echo, deep.place_mm,
-             face_reflection(settings, lines.fan.steering) * counted(deep.strength * before * before, kLeastFromFace));
+             face_reflection(settings, lines.fan.steering) * counted(deep.strength * before * before, kMinFromFace));
       for (std::size_t i = 0; i < j && settings.reverberation; ++i) {
         const Reflector& shallow = reflectors[i];
         const double apart = deep.place_mm - shallow.place_mm;
         const double separate = std::clamp(2 * apart / l - 1, 0.0, 1.0);
         const double behind = along.behind(shallow.sample), between = behind > before ? before / behind : 1;
         repeat(deep, std::min(dr / l, 1.0) * echo, apart,
-               counted(separate * shallow.strength * deep.strength * between * between, kLeastRound));
+               counted(separate * shallow.strength * deep.strength * between * between, kMinRound));
       }
     }
   }
@@ -112,11 +112,11 @@ void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& i
     const auto echo_at = [&](int k) { return k < 0 || k >= gas ? 0.0 : echo.at(line, k); };
     const auto loss = [&](int k) {
       const double arriving = along.intensity(k);
-      return arriving > kLeastReverberant ? 1 - std::pow(std::min(along.intensity(k + 1) / arriving, 1.0), l / dr) : 0;
+      return arriving > kMinReverberant ? 1 - std::pow(std::min(along.intensity(k + 1) / arriving, 1.0), l / dr) : 0;
     };
-    double left = kMostMirrored;
+    double left = kMaxMirrored;
     for (int j = 0; j < lines.samples && left > 0; j += n) {
-      const double t = std::clamp((loss(j) - kLeastMirror) / (kFullMirror - kLeastMirror), 0.0, 1.0);
+      const double t = std::clamp((loss(j) - kMinMirror) / (kFullMirror - kMinMirror), 0.0, 1.0);
       const double counted = std::min(std::min(n * dr / l, 1.0) * t * t * (3 - 2 * t), left);
       if (counted == 0) continue;
       gas = std::min(gas, j);
@@ -124,7 +124,7 @@ void add_mirror_images(Image<std::complex<double>>& echo, const Image<double>& i
       const double place_mm = along.place_mm(j, kOwnPlace);
       const double share = std::sqrt(settings.mirror_image) * counted;
       double kept = 1;
-      for (int p = 1; kept >= kLeastOfFace && p * place_mm < lines.r_max_mm; ++p) {
+      for (int p = 1; kept >= kMinOfFace && p * place_mm < lines.r_max_mm; ++p) {
         for (int k = j + 1; k < lines.samples; ++k) {
           const double r = (p + 1) * place_mm - (lines.r_min_mm + (k + 0.5) * dr);  // where the echo comes from
           const double source = (r - lines.r_min_mm) / dr - 0.5;

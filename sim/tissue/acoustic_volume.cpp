@@ -27,7 +27,7 @@ std::int16_t centidecibel(double db) {
 /// Returns the part of a difference that is texture, not partial volume, HU.
 double texture_hu(double hu_above_mean) {
   const double away = std::abs(hu_above_mean);
-  return hu_above_mean * std::clamp((kRimHu - away) / (kRimHu - kTextureHu), 0.0, 1.0);
+  return hu_above_mean * std::clamp((kRim_hu - away) / (kRim_hu - kTexture_hu), 0.0, 1.0);
 }
 
 /// The slices at the head's and the feet's end in which sound is lost.
@@ -40,7 +40,7 @@ public:
   }
   bool contain(const glm::ivec3& i) const { return distance(i) < slices_; }
   double echogenicity_db(const glm::ivec3& i) const {
-    return kLeastEchogenicityDb + double(slices_ - distance(i)) / slices_ * (kEndDb - kLeastEchogenicityDb);
+    return kMinEchogenicity_db + double(slices_ - distance(i)) / slices_ * (kEnd_db - kMinEchogenicity_db);
   }
 
 private:
@@ -104,7 +104,7 @@ public:
     const std::uint8_t label = labels_.empty() ? 0 : labels_.voxels[v];
     const int hu = ct_.voxels[v];
     const int noise_hu =
-        has_tissue_[label] && tissue_db_[label] < kFluidDb ? int(std::lround(texture_hu(hu - means_[label]))) : 0;
+        has_tissue_[label] && tissue_db_[label] < kFluid_db ? int(std::lround(texture_hu(hu - means_[label]))) : 0;
     const bool is_end = hu > densest_air_ && ends_.contain(i);
     return {std::int16_t(hu - noise_hu),
             is_end ? centidecibel(ends_.echogenicity_db(i)) : echogenicity_cdb(i, label, hu)};
@@ -114,8 +114,8 @@ private:
   std::int16_t echogenicity_cdb(const glm::ivec3& i, std::uint8_t label, int hu) const {
     if (has_tissue_[label])
       return centidecibel(std::clamp(tissue_db_[label] + kTextureDbPerHu * texture_hu(hu - means_[label]),
-                                     kLeastEchogenicityDb, kMostEchogenicityDb));
-    if (is_amid_air(i)) return centidecibel(kLeastEchogenicityDb);
+                                     kMinEchogenicity_db, kMaxEchogenicity_db));
+    if (is_amid_air(i)) return centidecibel(kMinEchogenicity_db);
     std::int16_t echo = by_density(hu);
     std::ptrdiff_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -124,7 +124,7 @@ private:
         const std::int16_t* here = ct_.voxels.data() + ct_.grid.offset(i);
         const int before = here[-reach * stride], after = here[reach * stride];
         const auto [low, high] = std::minmax(before, after);
-        if (hu - low >= kEdgeMarginHu && high - hu >= kEdgeMarginHu)
+        if (hu - low >= kEdgeMargin_hu && high - hu >= kEdgeMargin_hu)
           echo = std::max({echo, by_density(before), by_density(after)});
       }
       stride *= ct_.grid.size[axis];
@@ -174,7 +174,7 @@ AcousticVolume acoustic_volume_of(const Volume<std::int16_t>& ct, const Volume<s
 }
 
 void add_structure(AcousticVolume& volume, const std::vector<std::int16_t>& structure_cdb) {
-  static const int least = centidecibel(kLeastEchogenicityDb), most = centidecibel(kMostEchogenicityDb);
+  static const int least = centidecibel(kMinEchogenicity_db), most = centidecibel(kMaxEchogenicity_db);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, volume.voxels.size(), 1u << 18), [&](const auto& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       std::int16_t& cdb = volume.voxels[v].echogenicity_cdb;
@@ -237,7 +237,7 @@ double scatterer_amplitude_at(const AcousticVolume& volume, const glm::dmat4& in
     const double weight = (step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y) * (step.z ? f.z : 1 - f.z);
     if (weight > 0) db += weight * volume.at(low + step).echogenicity_cdb / 100.0;
   }
-  return std::max(std::pow(10.0, db / 10) - std::pow(10.0, kSilentDb / 10), 0.0);
+  return std::max(std::pow(10.0, db / 10) - std::pow(10.0, kSilent_db / 10), 0.0);
 }
 
 }  // namespace insonate

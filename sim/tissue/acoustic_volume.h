@@ -23,20 +23,20 @@ using AcousticVolume = Volume<AcousticVoxel>;
 // label's mean, the voxel is not texture but partial volume at the organ's rim. The shift fades out by 60 HU, so that
 // rims get no dark or bright seam. Estimates, chosen by eye on real scans.
 inline constexpr double kTextureDbPerHu = 0.1;
-inline constexpr double kTextureHu = 30;
-inline constexpr double kRimHu = 60;
+inline constexpr double kTexture_hu = 30;
+inline constexpr double kRim_hu = 60;
 
 // Fluid is what scatters less than this by its label. Differences of its density are noise, which would show as echoes
 // of interfaces within a gallbladder or an aorta. Its density becomes even; towards the rim that fades out as texture
 // does.
-inline constexpr double kFluidDb = -25;
+inline constexpr double kFluid_db = -25;
 
 // Where a CT's first and last slice cut the body, the body goes on and the data do not. Air there would be a bright
 // straight line with a mirror image behind it. Instead the last kEnd_mm of tissue before the head's and the feet's end
 // absorb sound, so that the picture ends black. Absorption rises so slowly that it is not taken for gas, which has
 // mirror images (mirror_image.h). Two slices at least; none in a CT of fewer than four times as many.
 inline constexpr double kEnd_mm = 8;
-inline constexpr double kEndDb = -160;  // of the outermost slice
+inline constexpr double kEnd_db = -160;  // of the outermost slice
 
 /// Returns the grid's axis that runs most nearly along the patient's, from feet to head.
 int feet_head_axis(const Grid& grid);
@@ -47,14 +47,14 @@ double to_end_mm(const Grid& grid, const glm::dvec3& point);
 // both sides. The distance spans half the blur of an edge in resampled thick slices. The margin is above what is left
 // of the noise, so that noise in a cyst does not fill it with echoes.
 inline constexpr double kEdgeRadius_mm = 2;
-inline constexpr int kEdgeMarginHu = 20;
+inline constexpr int kEdgeMargin_hu = 20;
 
 // The range to which a labelled voxel is clamped: that of the tissue table.
-inline constexpr double kLeastEchogenicityDb = -60, kMostEchogenicityDb = 30;
+inline constexpr double kMinEchogenicity_db = -60, kMaxEchogenicity_db = 30;
 
 // A voxel with the least echogenicity does not scatter at all; voxels store steps of 0.01 dB. At e dB the scatterers'
-// amplitude is 10^(e/10) - 10^(kSilentDb/10), so that it starts from 0 at the limit of silence.
-inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
+// amplitude is 10^(e/10) - 10^(kSilent_db/10), so that it starts from 0 at the limit of silence.
+inline constexpr double kSilent_db = kMinEchogenicity_db + 0.005;
 
 /// Returns the acoustic volume of a CT, from its Hounsfield units and, if there are any, its labels. Throws InputError
 /// for an unknown tissue, and std::invalid_argument for labels of another size or more than 256 label values.
@@ -66,26 +66,26 @@ inline constexpr double kSilentDb = kLeastEchogenicityDb + 0.005;
 /// so a CT without labels is first freed of noise, without_noise(ct, ct_noise_hu(ct)) (ct_noise.h); its impedance
 /// follows from that too. With
 ///
-///     g(x) = kTextureDbPerHu x clamp((kRimHu - |x|) / (kRimHu - kTextureHu), 0, 1)         dB of x HU
+///     g(x) = kTextureDbPerHu x clamp((kRim_hu - |x|) / (kRim_hu - kTexture_hu), 0, 1)         dB of x HU
 ///     T(h) = the table's echogenicity at h Hounsfield units                                dB
 ///
 /// a voxel of H HU becomes, rounded to hundredths of a dB:
 ///
 ///     with a label of a tissue t    t's echogenicity + g(H - the mean HU of all voxels of that label), clamped to
-///                                   kLeastEchogenicityDb and kMostEchogenicityDb
+///                                   kMinEchogenicity_db and kMaxEchogenicity_db
 ///     else                          T(H)
 ///
-/// In the i-th of the n slices of an end, counted from 0 at the outermost, tissue becomes kLeastEchogenicityDb +
-/// (n - i) / n (kEndDb - kLeastEchogenicityDb). The voxel's density stays H, but for labels of a tissue of less than
-/// kFluidDb: there it becomes H - g(H - mean) / kTextureDbPerHu, the difference rounded.
+/// In the i-th of the n slices of an end, counted from 0 at the outermost, tissue becomes kMinEchogenicity_db +
+/// (n - i) / n (kEnd_db - kMinEchogenicity_db). The voxel's density stays H, but for labels of a tissue of less than
+/// kFluid_db: there it becomes H - g(H - mean) / kTextureDbPerHu, the difference rounded.
 ///
 /// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
-/// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMarginHu or more below
+/// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMargin_hu or more below
 /// H, and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
-/// TissueTable::densest_air_hu() or less, the result is kLeastEchogenicityDb: no sound gets there, and the air around
+/// TissueTable::densest_air_hu() or less, the result is kMinEchogenicity_db: no sound gets there, and the air around
 /// the body can be skipped.
 ///
-/// With structure, tissue_structure_cdb() is added where scatterers are: to every voxel above kLeastEchogenicityDb
+/// With structure, tissue_structure_cdb() is added where scatterers are: to every voxel above kMinEchogenicity_db
 /// outside the ends, clamped as labelled voxels are.
 /// @param labels     on the CT's grid, or empty
 /// @param tissue_of  per label value, the tissue's name in the table ("" for none); 256 entries, or empty
@@ -97,14 +97,14 @@ AcousticVolume make_acoustic_volume(const Volume<std::int16_t>& ct, const Volume
 /// Returns what a medium absorbs in addition to its density's absorption, dB/(cm MHz), one way: above 0 at an end of
 /// the CT alone, also with Settings::absorption off.
 inline double end_absorption(double echogenicity_db) {
-  const double below = kEndlessDb - echogenicity_db;
+  const double below = kEndless_db - echogenicity_db;
   return below > 0 ? kEndAbsorption * below * below : 0;
 }
 
 /// Returns a digest of the grid and all voxels, as digest_of() (sim/files/digest.h).
 std::string digest_of(const AcousticVolume& volume);
 
-/// Returns the amplitude of the scatterers at a place in the paper's sums, 10^(e/10) - 10^(kSilentDb/10) with e the
+/// Returns the amplitude of the scatterers at a place in the paper's sums, 10^(e/10) - 10^(kSilent_db/10) with e the
 /// trilinear echogenicity; 0 outside the volume.
 /// @param index_from_patient  the inverse of volume.grid.matrix()
 double scatterer_amplitude_at(const AcousticVolume& volume, const glm::dmat4& index_from_patient,

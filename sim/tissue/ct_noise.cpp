@@ -13,11 +13,11 @@
 namespace insonate {
 namespace {
 
-constexpr double kStepHu = 0.5;
+constexpr double kStep_hu = 0.5;
 constexpr int kSteps = 200;  ///< up to 100 HU, more than any scanner's noise
-constexpr int kSoftLeastHu = 0, kSoftMostHu = 100, kFarHu = 200;
+constexpr int kSoftMin_hu = 0, kSoftMax_hu = 100, kFar_hu = 200;
 constexpr int kAround = 27;
-constexpr int kMostApartHu = 1000;  ///< so that 27 differences fit in 16 bits; more counts as that
+constexpr int kMaxApart_hu = 1000;  ///< so that 27 differences fit in 16 bits; more counts as that
 constexpr int kLanes = 16;  ///< voxels that the compiler computes at once; rows are padded to whole numbers of them
 
 using Ct = Volume<std::int16_t>;
@@ -113,7 +113,7 @@ Ct mean_of_alike(const Ct& ct, const Ct& guide, int most_apart) {
       const auto most = std::int16_t(most_apart);
       put_row(result, y, z, [&](int first, Lanes& means) {
         std::copy_n(base + first, kLanes, means.begin());
-        if (*std::max_element(here + first, here + first + kLanes) <= kFilteredHu) return;  // half of most CTs
+        if (*std::max_element(here + first, here + first + kLanes) <= kFiltered_hu) return;  // half of most CTs
         // Everything in 16 bits, which the compiler computes eight at a time. A difference of guides that does not fit
         // wraps to one that is still too large.
         Lanes sum{}, count{};
@@ -126,14 +126,14 @@ Ct mean_of_alike(const Ct& ct, const Ct& guide, int most_apart) {
                 const auto apart = std::int16_t(there[x] - here[std::size_t(first) + x]);
                 const std::int16_t alike = std::int16_t(-(apart <= most)) & std::int16_t(-(apart >= -most));
                 const std::int16_t more = std::clamp(std::int16_t(value[x] - base[std::size_t(first) + x]),
-                                                     std::int16_t(-kMostApartHu), std::int16_t(kMostApartHu));
+                                                     std::int16_t(-kMaxApart_hu), std::int16_t(kMaxApart_hu));
                 sum[x] = std::int16_t(sum[x] + (more & alike));
                 count[x] = std::int16_t(count[x] - alike);
               }
             }
         for (std::size_t x = 0; x < kLanes; ++x) {
           const float mean = std::floor(float(sum[x]) / float(count[x]) + 0.5f);
-          if (here[std::size_t(first) + x] > kFilteredHu) means[x] = std::int16_t(means[x] + mean);
+          if (here[std::size_t(first) + x] > kFiltered_hu) means[x] = std::int16_t(means[x] + mean);
         }
       });
     };
@@ -170,10 +170,10 @@ double ct_noise_hu(const Ct& ct) {
               }
         for (std::size_t x = 0; x < kLanes && first + int(x) < ct.grid.size.x; ++x) {
           const double mean = double(sum[x]) / kAround;
-          if (mean < kSoftLeastHu || mean > kSoftMostHu || least[x] < mean - kFarHu || most[x] > mean + kFarHu)
+          if (mean < kSoftMin_hu || mean > kSoftMax_hu || least[x] < mean - kFar_hu || most[x] > mean + kFar_hu)
             continue;
           const double variance = std::max(0.0, (squares[x] - kAround * mean * mean) / (kAround - 1));
-          ++counts[std::size_t(std::min(int(std::lround(std::sqrt(variance) / kStepHu)), kSteps - 1))];
+          ++counts[std::size_t(std::min(int(std::lround(std::sqrt(variance) / kStep_hu)), kSteps - 1))];
         }
       }
     };
@@ -186,9 +186,9 @@ double ct_noise_hu(const Ct& ct) {
       tissue += part[n];
     }
   const glm::dvec3 spacing = ct.grid.spacing;
-  if (double(tissue * step.y * step.z) * spacing.x * spacing.y * spacing.z < kLeastTissue_ml * 1000)
-    return kUsualNoiseHu;
-  return std::max(kUsualNoiseHu, kStepHu * double(std::max_element(counts.begin(), counts.end()) - counts.begin()));
+  if (double(tissue * step.y * step.z) * spacing.x * spacing.y * spacing.z < kMinTissue_ml * 1000)
+    return kUsualNoise_hu;
+  return std::max(kUsualNoise_hu, kStep_hu * double(std::max_element(counts.begin(), counts.end()) - counts.begin()));
 }
 
 Ct without_noise(const Ct& ct, double noise_hu) {

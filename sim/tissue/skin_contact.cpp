@@ -19,7 +19,7 @@ std::optional<double> distance_until(bool body, const Volume<std::int16_t>& ct, 
                                      const glm::dvec3& direction, double reach_mm) {
   const glm::dvec3 start = ct.grid.index_from_patient(point);
   const glm::dvec3 per_mm = ct.grid.index_from_patient(point + direction) - start;
-  const auto reached = [&](double mm) { return (sample_trilinear(ct, start + per_mm * mm) > kSkinHu) == body; };
+  const auto reached = [&](double mm) { return (sample_trilinear(ct, start + per_mm * mm) > kSkin_hu) == body; };
   if (reached(0)) return 0.0;
   for (int k = 1; k * kMarch_mm <= reach_mm; ++k) {
     if (!reached(k * kMarch_mm)) continue;

@@ -9,7 +9,7 @@
 namespace insonate {
 
 /// The density of the body's surface: half way between air (-1000 HU) and fat (about -100 HU).
-inline constexpr double kSkinHu = -500;
+inline constexpr double kSkin_hu = -500;
 
 /// Returns how far a point moves along a unit direction (patient, mm) until it meets the body, to 0.01 mm. Returns
 /// nothing if it does not within `reach_mm`, and 0 if it starts inside.

@@ -9,22 +9,21 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestFile = 1u << 20;
-constexpr int kMostKnots = 256;
+constexpr int kMaxKnots = 256;
 
 // Beyond every tissue and metal in the sources, so that a refused value is a typing error.
-constexpr double kLeastImpedance = 1e-4, kMostImpedance = 100;
-constexpr double kMostAbsorption = 1000;
-constexpr double kLeastEchogenicity = -60, kMostEchogenicity = 30;
+constexpr double kMinImpedance = 1e-4, kMaxImpedance = 100;
+constexpr double kMaxAbsorption = 1000;
+constexpr double kMinEchogenicity = -60, kMaxEchogenicity = 30;
 
 // In the order of Structure.
 const std::vector<std::string> kStructureNames = {"none", "even",  "organ",  "glandular", "muscle",
                                                   "fat",  "mixed", "kidney", "medulla",   "sinus"};
 
 TissueKnot read_knot(const TomlTable& entry) {
-  return {int(entry.whole_number("hu", kLeastKnotHu, kMostKnotHu)),
-          entry.number("impedance", {kLeastImpedance, kMostImpedance}),
-          entry.number("absorption", {0, kMostAbsorption}),
-          entry.number("echogenicity", {kLeastEchogenicity, kMostEchogenicity})};
+  return {int(entry.whole_number("hu", kMinKnot_hu, kMaxKnot_hu)),
+          entry.number("impedance", {kMinImpedance, kMaxImpedance}), entry.number("absorption", {0, kMaxAbsorption}),
+          entry.number("echogenicity", {kMinEchogenicity, kMaxEchogenicity})};
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ int TissueTable::densest_air_hu() const {
     return knot.impedance_mrayl != knots.front().impedance_mrayl ||
            knot.absorption_db_cm_mhz != knots.front().absorption_db_cm_mhz;
   });
-  return denser == knots.end() ? kMostAirHu : std::min(denser[-1].hu, kMostAirHu);
+  return denser == knots.end() ? kMaxAir_hu : std::min(denser[-1].hu, kMaxAir_hu);
 }
 
 TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
@@ -65,14 +64,14 @@ TissueTable read_tissue_table(const std::filesystem::path& toml_file) {
     const TomlTable tissues = root.table("tissue");
     for (const std::string& name : tissues.keys()) {
       const TomlTable entry = tissues.table(name);
-      table.labelled[name] = {entry.number("echogenicity_db", {kLeastEchogenicity, kMostEchogenicity}),
+      table.labelled[name] = {entry.number("echogenicity_db", {kMinEchogenicity, kMaxEchogenicity}),
                               Structure(entry.choice("structure", kStructureNames, 0))};
     }
   }
   root.refuse_unknown_keys();
-  if (table.knots.size() < 2 || table.knots.size() > kMostKnots)
+  if (table.knots.size() < 2 || table.knots.size() > kMaxKnots)
     root.fail("knot", "there are " + std::to_string(table.knots.size()) + " knots",
-              "give 2 to " + std::to_string(kMostKnots) + " [[knot]] entries");
+              "give 2 to " + std::to_string(kMaxKnots) + " [[knot]] entries");
   return table;
 }
 

@@ -9,14 +9,14 @@ namespace insonate {
 
 /// The range of Hounsfield units of knots: what a CT scanner's 12 bits hold. Denser metal gets the last knot's values,
 /// so a table with one entry per unit over this range holds all information of a tissue table.
-inline constexpr int kLeastKnotHu = -1024, kMostKnotHu = 3071;
+inline constexpr int kMinKnot_hu = -1024, kMaxKnot_hu = 3071;
 
-/// The densest air. Coupling gel replaces voxels up to this density completely (kCouplingAirHu, coupling.h).
-inline constexpr int kMostAirHu = -301;
+/// The densest air. Coupling gel replaces voxels up to this density completely (kCouplingAir_hu, coupling.h).
+inline constexpr int kMaxAir_hu = -301;
 
 /// The acoustic properties of a Hounsfield unit; linear between knots, constant beyond the ends.
 struct TissueKnot {
-  int hu = 0;                       ///< strictly rising from knot to knot, kLeastKnotHu to kMostKnotHu
+  int hu = 0;                       ///< strictly rising from knot to knot, kMinKnot_hu to kMaxKnot_hu
   double impedance_mrayl = 0;       ///< characteristic acoustic impedance, > 0
   double absorption_db_cm_mhz = 0;  ///< one way, >= 0
   double echogenicity_db = 0;  ///< backscatter relative to liver, used for voxels without a labelled tissue; -60 to 30
@@ -40,7 +40,7 @@ struct TissueTable {
   /// Returns the interpolated properties at a density; shaders tabulate this function.
   TissueKnot at(double hu) const;
 
-  /// Returns the highest density, at most kMostAirHu, with the impedance and absorption of the first knot. To the sound
+  /// Returns the highest density, at most kMaxAir_hu, with the impedance and absorption of the first knot. To the sound
   /// it is the same as any other air.
   int densest_air_hu() const;
 };

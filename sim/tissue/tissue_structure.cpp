@@ -67,10 +67,10 @@ void centre_labels(std::vector<std::int16_t>& cdb, const Volume<std::uint8_t>& l
   for (std::size_t l = 1; l < kLabelValues; ++l)
     if (structure_of[l] != Structure::none && counts[l] > 0)
       shift[l] = int(std::lround(double(sums[l]) / double(counts[l])));
-  constexpr int kMost = int(kMostStructureDb * 100);
+  constexpr int kMax = int(kMaxStructure_db * 100);
   tbb::parallel_for(all, [&](const auto& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v)
-      cdb[v] = std::int16_t(std::clamp(cdb[v] - shift[labels.voxels[v]], -kMost, kMost));
+      cdb[v] = std::int16_t(std::clamp(cdb[v] - shift[labels.voxels[v]], -kMax, kMax));
   });
 }
 
@@ -146,9 +146,9 @@ std::vector<std::int16_t> tissue_structure_cdb(const Volume<std::int16_t>& ct, c
     for (std::size_t s = 0; s < kStructures; ++s) add_all(Structure(s), places[s]);
     add_all(Structure::kidney, with_pyramids);
     add_all(Structure::sinus, with_rim);
-    constexpr float kMost = float(kMostStructureDb);
+    constexpr float kMax = float(kMaxStructure_db);
     for (std::size_t n = 0; n < in_slice; ++n)
-      cdb[first + n] = std::int16_t(std::lround(100 * std::clamp(db[n], -kMost, kMost)));
+      cdb[first + n] = std::int16_t(std::lround(100 * std::clamp(db[n], -kMax, kMax)));
   };
   tbb::parallel_for(tbb::blocked_range<int>(0, grid.size.z), [&](const auto& slices) {
     for (int z = slices.begin(); z != slices.end(); ++z) fill_slice(z);

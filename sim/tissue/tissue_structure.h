@@ -61,7 +61,7 @@ namespace insonate {
 inline constexpr int kLabelValues = 256;
 
 /// Structure is bounded: no voxel is shifted by more, dB.
-inline constexpr double kMostStructureDb = 8;
+inline constexpr double kMaxStructure_db = 8;
 
 /// Larger voxels, mm, cannot hold structure, and get none. Cases and scans are resampled to 1 mm before.
 inline constexpr double kLargestStructuredVoxel_mm = 1.6;

@@ -8,10 +8,10 @@
 namespace insonate {
 namespace {
 
-constexpr int kLeastHu = -1024;
-constexpr int kMostHu = 3071;         // what a 12-bit scanner writes; denser metal counts as bone
-constexpr double kAirBelowHu = -500;  // half way between air and fat; gel fills what is below
-constexpr double kSoftTissueHu = 50;  // between fluid and muscle: an organ such as liver, without contrast agent
+constexpr int kMin_hu = -1024;
+constexpr int kMax_hu = 3071;          // what a 12-bit scanner writes; denser metal counts as bone
+constexpr double kAirBelow_hu = -500;  // half way between air and fat; gel fills what is below
+constexpr double kSoftTissue_hu = 50;  // between fluid and muscle: an organ such as liver, without contrast agent
 
 }  // namespace
 
@@ -25,7 +25,7 @@ VoxelLine voxel_line(const Grid& grid, const ScanLines& set, std::size_t line, c
 }
 
 std::vector<double> soft_tissue_intensity(const ScanLines& lines, const TissueTable& tissues, double frequency_mhz) {
-  const double loss_db_mm = tissues.at(kSoftTissueHu).absorption_db_cm_mhz * frequency_mhz / 10;
+  const double loss_db_mm = tissues.at(kSoftTissue_hu).absorption_db_cm_mhz * frequency_mhz / 10;
   std::vector<double> intensity;
   for (int k = 0; k < lines.samples; ++k)
     intensity.push_back(std::pow(10.0, -loss_db_mm * (k + 0.5) * lines.dr_mm() / 10));
@@ -36,8 +36,8 @@ Transmission::Transmission(const Volume<std::int16_t>& ct, const TissueTable& ti
                            double frequency_mhz, const GelLayer& gel)
     : ct_(&ct), dr_mm_(sample_distance_mm), gel_(gel) {
   const double half_step_cm_mhz = dr_mm_ / 20 * frequency_mhz;
-  medium_of_hu_.reserve(kMostHu - kLeastHu + 1);
-  for (int hu = kLeastHu; hu <= kMostHu; ++hu) {
+  medium_of_hu_.reserve(kMax_hu - kMin_hu + 1);
+  for (int hu = kMin_hu; hu <= kMax_hu; ++hu) {
     const TissueKnot knot = tissues.at(hu);
     medium_of_hu_.push_back({knot.impedance_mrayl, std::pow(10.0, -knot.absorption_db_cm_mhz * half_step_cm_mhz / 10)});
   }
@@ -47,12 +47,12 @@ const Transmission::Medium& Transmission::medium(const glm::dvec3& index, double
   double hu = sample_trilinear(*ct_, index);
   if (distance_mm < gel_.thickness_mm) {
     if (gel_.gradual)
-      hu *= 1 - std::clamp((kCouplingTissueHu - hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
-    else if (hu < kAirBelowHu)
+      hu *= 1 - std::clamp((kCouplingTissue_hu - hu) / (kCouplingTissue_hu - kCouplingAir_hu), 0.0, 1.0);
+    else if (hu < kAirBelow_hu)
       hu = 0;
   }
-  constexpr double kHalfBelow = kLeastHu - 0.5;  // truncation after subtracting it rounds to the nearest integer
-  return medium_of_hu_[std::size_t(std::clamp(hu, double(kLeastHu), double(kMostHu)) - kHalfBelow)];
+  constexpr double kHalfBelow = kMin_hu - 0.5;  // truncation after subtracting it rounds to the nearest integer
+  return medium_of_hu_[std::size_t(std::clamp(hu, double(kMin_hu), double(kMax_hu)) - kHalfBelow)];
 }
 
 void Transmission::along(const VoxelLine& line, std::span<double> intensity) const {

@@ -60,7 +60,7 @@ private:
   const Volume<std::int16_t>* ct_;
   double dr_mm_;
   GelLayer gel_;
-  std::vector<Medium> medium_of_hu_;  ///< from kLeastHu up, one per Hounsfield unit
+  std::vector<Medium> medium_of_hu_;  ///< from kMin_hu up, one per Hounsfield unit
 };
 
 }  // namespace insonate

@@ -10,7 +10,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kMostPressed_mm = 100;  // no hand presses a probe further in
+constexpr double kMaxPressed_mm = 100;  // no hand presses a probe further in
 
 }  // namespace
 
@@ -80,7 +80,7 @@ std::vector<float> TruthMaker::skin_along_lines(const Pose& patient_from_probe) 
     const glm::dvec3 along = patient_from_probe.direction(line.direction);
     std::optional<double> distance = distance_to_skin(case_->ct, start, along, view_.depth_mm);
     if (distance == 0.0) {
-      distance = distance_out_of_body(case_->ct, start, -along, kMostPressed_mm);
+      distance = distance_out_of_body(case_->ct, start, -along, kMaxPressed_mm);
       if (distance) distance = -*distance;
     }
     distances.push_back(distance ? float(*distance) : std::numeric_limits<float>::quiet_NaN());

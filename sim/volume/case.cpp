@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr int kFormat = 1;
 constexpr std::size_t kLargestTable = 1u << 22;
-constexpr double kFurthestMm = 1e5;
+constexpr double kFurthest_mm = 1e5;
 constexpr const char* kTableFile = "case.toml";
 constexpr const char* kCtFile = "ct.nrrd";
 constexpr const char* kLabelsFile = "labels.nrrd";
@@ -61,7 +61,7 @@ Label read_label(const TomlTable& entry) {
 }
 
 Landmark read_landmark(const TomlTable& entry) {
-  return {read_identifier(entry, "name"), entry.vector("position", {-kFurthestMm, kFurthestMm})};
+  return {read_identifier(entry, "name"), entry.vector("position", {-kFurthest_mm, kFurthest_mm})};
 }
 
 ReferenceView read_view(const TomlTable& entry) {

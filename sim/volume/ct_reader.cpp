@@ -19,16 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLeastHu = -1024, kMostHu = 32767;
+constexpr double kMin_hu = -1024, kMax_hu = 32767;
 // Fat is above -200 HU. Dense bone and contrast agent are below 3071 HU, where the scanners' usual 12 bits end.
-constexpr std::int16_t kLeastBodyHu = -300, kMostBodyHu = 3071;
+constexpr std::int16_t kMinBody_hu = -300, kMaxBody_hu = 3071;
 // Metal may exceed int16's range, but a tenth of a CT cannot be metal.
-constexpr double kMostTooDense = 0.1;
+constexpr double kMaxTooDense = 0.1;
 // TotalSegmentator's 117 structures and the background. A CT has noise, and air below 0 HU.
-constexpr int kMostLabel = 255;
-constexpr std::size_t kMostLabels = 128;
+constexpr int kMaxLabel = 255;
+constexpr std::size_t kMaxLabels = 128;
 // A volume with fewer voxels per value is too small to be told from a label map.
-constexpr std::size_t kLeastVoxelsALabel = 100;
+constexpr std::size_t kMinVoxelsPerLabel = 100;
 
 const char* const kDicom = "DICOM series";
 
@@ -55,9 +55,9 @@ void append_hounsfield(const fs::path& file, const std::vector<double>& values, 
     if (!std::isfinite(hu))
       throw InputError(file.string(), voxel_at(ct.grid, ct.voxels.size()), "the value is not a finite number",
                        "export the CT again");
-    const double kept = std::clamp(hu, kLeastHu, kMostHu);
+    const double kept = std::clamp(hu, kMin_hu, kMax_hu);
     source.clamped += kept != hu;
-    source.too_dense += hu > kMostHu;
+    source.too_dense += hu > kMax_hu;
     source.rounded += hu != std::round(hu);
     ct.voxels.push_back(std::int16_t(std::lround(kept)));
   }
@@ -80,12 +80,12 @@ Volume<std::int16_t> read_dicom_folder(const fs::path& folder, CtSource& source)
 /// Refuses the numbers of structures, which would pass as Hounsfield units of soft tissue.
 void check_no_labels(const std::string& file, const Volume<std::int16_t>& ct, const CtSource& source) {
   if (source.rounded > 0) return;
-  std::bitset<kMostLabel + 1> found;
+  std::bitset<kMaxLabel + 1> found;
   for (const std::int16_t value : ct.voxels) {
-    if (value < 0 || value > kMostLabel) return;
+    if (value < 0 || value > kMaxLabel) return;
     found.set(std::size_t(value));
   }
-  if (found.count() > kMostLabels || ct.voxels.size() < kLeastVoxelsALabel * found.count()) return;
+  if (found.count() > kMaxLabels || ct.voxels.size() < kMinVoxelsPerLabel * found.count()) return;
   const std::int16_t most = *std::max_element(ct.voxels.begin(), ct.voxels.end());
   throw InputError(file, "voxels",
                    "this is a label map, not a CT: it has " + std::to_string(found.count()) +
@@ -102,13 +102,13 @@ void check_values(const std::string& file, const Volume<std::int16_t>& ct, const
   };
   const auto [least, most] = std::minmax_element(ct.voxels.begin(), ct.voxels.end());
   if (*least == *most) refuse("all voxels have the same value, " + std::to_string(*least) + " HU");
-  if (*most < kLeastBodyHu || *least > kMostBodyHu)
+  if (*most < kMinBody_hu || *least > kMaxBody_hu)
     refuse("the values reach from " + std::to_string(*least) + " to " + std::to_string(*most) +
-           " HU, where those of a body reach from about " + std::to_string(kLeastBodyHu) + " to " +
-           std::to_string(kMostBodyHu) + " HU");
-  if (double(source.too_dense) > kMostTooDense * double(ct.voxels.size()))
+           " HU, where those of a body reach from about " + std::to_string(kMinBody_hu) + " to " +
+           std::to_string(kMaxBody_hu) + " HU");
+  if (double(source.too_dense) > kMaxTooDense * double(ct.voxels.size()))
     refuse(std::to_string(100 * source.too_dense / ct.voxels.size()) + " % of the voxels are above " +
-           std::to_string(int(kMostHu)) + " HU, denser than any metal in a CT");
+           std::to_string(int(kMax_hu)) + " HU, denser than any metal in a CT");
   check_no_labels(file, ct, source);
 }
 

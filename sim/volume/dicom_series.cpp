@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 constexpr double kUnevenShare = 0.1;
 // How far the stack may lean, and a slice may be shifted sideways. Within it, no voxel is off by more than a thin
 // slice.
-constexpr double kMostLeanMm = 1;
+constexpr double kMaxLean_mm = 1;
 // Directions are decimal text of at most 16 characters; anonymisers and converters keep 4 decimals or more.
 constexpr double kUnitTolerance = 1e-3;
 // Images whose normals differ by more than 60 degrees are not in one stack: a localizer is perpendicular to it.
@@ -327,11 +327,11 @@ Grid ordered(const std::string& folder, Stack& stack, const std::vector<Stack>& 
       refuse((gaps[s] > 1.5 * usual ? "slices are missing " : "the slices are unevenly spaced ") + where + ": " +
                  millimetres(gaps[s]) + " instead of " + millimetres(usual),
              "export the whole series again");
-    if (const double off = std::hypot(along_rows[s] - aside_i, along_columns[s] - aside_j); off > kMostLeanMm)
+    if (const double off = std::hypot(along_rows[s] - aside_i, along_columns[s] - aside_j); off > kMaxLean_mm)
       refuse("the slices are shifted sideways by " + millimetres(off) + " " + where, "export the whole series again");
   }
   const double height = glm::dot(slices.back().position - slices.front().position, normal);
-  if (const double lean = std::hypot(aside_i, aside_j) * double(gaps.size()); lean > kMostLeanMm) {
+  if (const double lean = std::hypot(aside_i, aside_j) * double(gaps.size()); lean > kMaxLean_mm) {
     char angle[32];
     std::snprintf(angle, sizeof angle, "%.1f", glm::degrees(std::atan2(lean, height)));
     refuse(std::string("the gantry was tilted: the stack leans by ") + angle + " degrees",

@@ -24,12 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostPixelsASide = 8192;
-constexpr std::size_t kMostFrames = 100000;
+constexpr int kMaxPixelsPerSide = 8192;
+constexpr std::size_t kMaxFrames = 100000;
 
 // Values of the region's elements (PS3.3, C.8.5.5.1).
 constexpr int kSpatialFormat2d = 1, kDataTypeTissue = 1, kUnitsCm = 3;
-constexpr double kLeastPixel_mm = 0.001, kMostPixel_mm = 10;
+constexpr double kMinPixel_mm = 0.001, kMaxPixel_mm = 10;
 
 const char* const kExportClipAgain = "export the clip again";
 
@@ -84,7 +84,7 @@ std::optional<UltrasoundRegion> region_of(const gdcm::DataSet& item, const Dicom
   if (*x0 >= right || *y0 >= bottom) return std::nullopt;
   const glm::dvec2 mm(10 * std::abs(*across_cm), 10 * std::abs(*down_cm));
   for (const double side : {mm.x, mm.y})
-    if (!(side >= kLeastPixel_mm && side <= kMostPixel_mm)) return std::nullopt;
+    if (!(side >= kMinPixel_mm && side <= kMaxPixel_mm)) return std::nullopt;
   return UltrasoundRegion{{int(*x0), int(*y0), int(right - *x0 + 1), int(bottom - *y0 + 1)}, mm};
 }
 
@@ -104,8 +104,8 @@ DicomUltrasound clip_of(const fs::path& file, const gdcm::File& dicom) {
   clip.width = value_of<0x0028, 0x0011>(header).value_or(0);
   clip.height = value_of<0x0028, 0x0010>(header).value_or(0);
   const int frames = value_of<0x0028, 0x0008>(header).value_or(1);
-  if (clip.width < 2 || clip.height < 2 || clip.width > kMostPixelsASide || clip.height > kMostPixelsASide ||
-      frames < 1 || std::size_t(frames) > kMostFrames)
+  if (clip.width < 2 || clip.height < 2 || clip.width > kMaxPixelsPerSide || clip.height > kMaxPixelsPerSide ||
+      frames < 1 || std::size_t(frames) > kMaxFrames)
     throw InputError(file.string(), "header",
                      formatted("it claims %d images of %d x %d pixels", frames, clip.width, clip.height),
                      kExportClipAgain);

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kNifti1Bytes = 348, kNifti2Bytes = 540;
-constexpr std::size_t kMostExtensionBytes = std::size_t(16) << 20;
+constexpr std::size_t kMaxExtensionBytes = std::size_t(16) << 20;
 // How far the sform's axes may be from pixdim's lengths, mm, and from right angles. ITK has the same tolerances.
 constexpr double kLengthTolerance = 1e-3, kAngleTolerance = 1e-4;
 // A quaternion is stored in single precision.
@@ -123,7 +123,7 @@ ElementType type_of(const fs::path& file, int datatype) {
 
 /// Refuses a number that is not finite or beyond 1 km.
 void check_reach(const fs::path& file, const std::string& what, double number) {
-  if (!(std::abs(number) <= kFurthestOriginMm))
+  if (!(std::abs(number) <= kFurthestOrigin_mm))
     refuse_header(file, "the " + what + " holds " + number_text(number) + ", further than 1 km", "correct it");
 }
 
@@ -283,7 +283,7 @@ std::vector<std::string> read_nifti_extensions(const fs::path& file) {
   const std::optional<Nifti> found = read_header(stream, ends_early);
   char mark[4];
   if (!found || stream.read(mark, sizeof mark) < sizeof mark || mark[0] == 0) return {};
-  if (!(found->data_offset <= double(kMostExtensionBytes)))
+  if (!(found->data_offset <= double(kMaxExtensionBytes)))
     refuse_extension("the header claims that the voxels begin beyond 16 MiB");
   std::vector<std::string> extensions;
   double at = double(found->header_bytes + sizeof mark);

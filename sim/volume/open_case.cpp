@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kBodyHu = -300;
-constexpr double kThickMm = 20;
+constexpr double kBody_hu = -300;
+constexpr double kThick_mm = 20;
 
 ReferenceView looking_in(std::string name, std::string title, const glm::dvec3& face, const glm::dvec3& into,
                          const glm::dvec3& marker) {
@@ -29,14 +29,14 @@ ReferenceView looking_in(std::string name, std::string title, const glm::dvec3& 
 
 std::optional<glm::dvec3> skin_along(const Volume<std::int16_t>& ct, const glm::dvec3& from,
                                      const glm::dvec3& direction, double reach_mm) {
-  constexpr double kStepMm = 0.5;
+  constexpr double kStep_mm = 0.5;
   std::optional<double> entered;
-  for (double s = 0; s < reach_mm; s += kStepMm) {
-    if (sample_trilinear(ct, ct.grid.index_from_patient(from + s * direction)) < kBodyHu)
+  for (double s = 0; s < reach_mm; s += kStep_mm) {
+    if (sample_trilinear(ct, ct.grid.index_from_patient(from + s * direction)) < kBody_hu)
       entered.reset();
     else if (!entered)
       entered = s;
-    else if (s - *entered >= kThickMm)
+    else if (s - *entered >= kThick_mm)
       return from + *entered * direction;
   }
   return std::nullopt;
@@ -49,8 +49,8 @@ Case open_case(const fs::path& path) {
   subject.name = path.filename().string();
   subject.ct = read_ct(path);
   const glm::dvec3 spacing = subject.ct.grid.spacing;
-  if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxelMm)
-    subject.ct = resample_isotropic(subject.ct, kInsonatedVoxelMm, path.string());
+  if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxel_mm)
+    subject.ct = resample_isotropic(subject.ct, kInsonatedVoxel_mm, path.string());
   subject.views = default_views(subject.ct);
   return subject;
 }

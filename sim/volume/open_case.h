@@ -12,10 +12,10 @@ namespace insonate {
 
 /// The voxel size to which scans are resampled before they are simulated, mm. Reflections are read from differences
 /// over less than a millimetre, and the facets of thicker voxels would appear in them as dashes.
-inline constexpr double kInsonatedVoxelMm = 1.0;
+inline constexpr double kInsonatedVoxel_mm = 1.0;
 
 /// Opens a case folder, or a CT file or DICOM folder as a case without labels and landmarks, with default_views().
-/// Scans whose voxels are larger than kInsonatedVoxelMm are resampled to it. Throws InputError.
+/// Scans whose voxels are larger than kInsonatedVoxel_mm are resampled to it. Throws InputError.
 Case open_case(const std::filesystem::path& case_folder_or_ct);
 
 /// Returns the tissue name for each label value of a case, "" where there is none; 256 entries.

@@ -11,14 +11,14 @@
 namespace insonate {
 namespace {
 
-constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100;
+constexpr double kMinSpacing_mm = 1e-3, kMaxSpacing_mm = 100;
 // A probe's face is longer than the least size, and no scanner's table is longer than the most.
-constexpr double kLeastBodyMm = 20, kMostBodyMm = 3000;
+constexpr double kMinBody_mm = 20, kMaxBody_mm = 3000;
 // Directions are often stored with 6 decimals. As cosines of small angles they lose one or two more digits.
 constexpr double kOrthogonalTolerance = 1e-3;
 
 // A CT of 4096 densities stored over all values of 32 bits has a slope of 1e-6; stored in 8 bits, one of 16.
-constexpr double kLeastSlope = 1e-9, kMostSlope = 1e4, kMostIntercept = 1e5;
+constexpr double kMinSlope = 1e-9, kMaxSlope = 1e4, kMaxIntercept = 1e5;
 const char* const kRescaleRemedy = "correct the header, or export the CT again in Hounsfield units";
 
 }  // namespace
@@ -32,36 +32,37 @@ void check_size(const std::string& file, std::uint64_t i, std::uint64_t j, std::
   for (const std::uint64_t side : {i, j, k}) {
     if (side < 2)
       refuse_header(file, "it claims " + sizes + ", which is not a volume", "give a 3D volume of 2 or more slices");
-    if (side > kMostVoxelsASide)
-      refuse_header(file, "it claims " + sizes + ", above the limit of " + std::to_string(kMostVoxelsASide) + " a side",
+    if (side > kMaxVoxelsPerSide)
+      refuse_header(file,
+                    "it claims " + sizes + ", above the limit of " + std::to_string(kMaxVoxelsPerSide) + " a side",
                     "check that the file is whole, or crop it");
   }
-  if (i * j * k > kMostVoxels)
+  if (i * j * k > kMaxVoxels)
     refuse_header(file, "it claims " + sizes + ", above the limit of 2^31 in all", "resample it to fewer voxels");
 }
 
 void check_body_size(const std::string& file, const glm::ivec3& voxels, const glm::dvec3& spacing) {
   const glm::dvec3 size = glm::dvec3(voxels) * spacing;
   for (int a = 0; a < 3; ++a)
-    if (size[a] < kLeastBodyMm || size[a] > kMostBodyMm)
+    if (size[a] < kMinBody_mm || size[a] > kMaxBody_mm)
       refuse_header(file,
                     "the volume measures " + number_text(size.x) + " x " + number_text(size.y) + " x " +
-                        number_text(size.z) + " mm, where a body has " + number_text(kLeastBodyMm) + " to " +
-                        number_text(kMostBodyMm) + " mm along each axis",
+                        number_text(size.z) + " mm, where a body has " + number_text(kMinBody_mm) + " to " +
+                        number_text(kMaxBody_mm) + " mm along each axis",
                     "is its spacing in mm, and not in another unit?");
 }
 
 void check_rescale(const std::string& file, const std::string& slope_name, double slope,
                    const std::string& intercept_name, double intercept) {
-  if (!(slope >= kLeastSlope && slope <= kMostSlope))
+  if (!(slope >= kMinSlope && slope <= kMaxSlope))
     refuse_header(file,
                   "its " + slope_name + " is " + number_text(slope) + ", where a CT has one from " +
-                      number_text(kLeastSlope) + " to " + number_text(kMostSlope),
+                      number_text(kMinSlope) + " to " + number_text(kMaxSlope),
                   kRescaleRemedy);
-  if (!(std::abs(intercept) <= kMostIntercept))
+  if (!(std::abs(intercept) <= kMaxIntercept))
     refuse_header(file,
                   "its " + intercept_name + " is " + number_text(intercept) + ", where a CT has one within +-" +
-                      number_text(kMostIntercept),
+                      number_text(kMaxIntercept),
                   kRescaleRemedy);
 }
 
@@ -74,10 +75,10 @@ void check_positive_spacing(const std::string& file, const glm::dvec3& spacing, 
 Grid checked_grid(const std::string& file, Grid grid) {
   for (int a = 0; a < 3; ++a) {
     const double spacing = grid.spacing[a];
-    if (!(spacing >= kLeastSpacingMm && spacing <= kMostSpacingMm))
+    if (!(spacing >= kMinSpacing_mm && spacing <= kMaxSpacing_mm))
       refuse_header(file, "the spacing along axis " + std::to_string(a + 1) + " is " + number_text(spacing) + " mm",
                     "give a spacing from 0.001 to 100 mm");
-    if (!(std::abs(grid.origin[a]) <= kFurthestOriginMm))
+    if (!(std::abs(grid.origin[a]) <= kFurthestOrigin_mm))
       refuse_header(file, "the origin is at " + number_text(grid.origin[a]) + " mm", "correct the origin");
   }
   const glm::dmat3 excess = glm::transpose(grid.direction) * grid.direction - glm::dmat3(1.0);

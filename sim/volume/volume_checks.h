@@ -10,10 +10,10 @@ namespace insonate {
 
 /// The limits that read_ct() documents. 4096 voxels per side are twice what scanners write; 2^31 int16 voxels are 4
 /// GiB.
-inline constexpr std::uint64_t kMostVoxelsASide = 4096;
-inline constexpr std::uint64_t kMostVoxels = std::uint64_t(1) << 31;
+inline constexpr std::uint64_t kMaxVoxelsPerSide = 4096;
+inline constexpr std::uint64_t kMaxVoxels = std::uint64_t(1) << 31;
 /// The largest distance of the origin from zero along an axis. A scanner's table is 2 m long.
-inline constexpr double kFurthestOriginMm = 1e6;
+inline constexpr double kFurthestOrigin_mm = 1e6;
 
 /// Throws InputError for a problem in the header of a volume file.
 [[noreturn]] void refuse_header(const std::filesystem::path& file, const std::string& problem,

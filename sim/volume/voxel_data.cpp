@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kValuesAtOnce = 1u << 15;
 // Deflate packs at most 1032 bytes into one (zlib's technical notes).
-constexpr std::uint64_t kMostDeflated = 1032;
+constexpr std::uint64_t kMaxDeflated = 1032;
 // How many bytes beyond the claimed voxels are counted.
-constexpr std::uint64_t kMostCounted = 1u << 24;
+constexpr std::uint64_t kMaxCounted = 1u << 24;
 
 [[noreturn]] void refuse_size(const fs::path& file, std::uint64_t claimed, std::uint64_t held,
                               const char* more_than = "") {
@@ -48,7 +48,7 @@ void check_voxel_data(const fs::path& header_file, const VoxelData& data, std::u
   if (!data.packed) {
     const std::uint64_t held = there - std::min(there, data.offset);
     if (held != claimed) refuse_size(header_file, claimed, held);
-  } else if ((data.skipped + claimed) / kMostDeflated > there) {
+  } else if ((data.skipped + claimed) / kMaxDeflated > there) {
     refuse_header(header_file,
                   "it claims " + std::to_string(claimed) + " bytes of voxels, which its " + std::to_string(there) +
                       " packed bytes cannot hold",
@@ -89,9 +89,9 @@ void read_values(const fs::path& header_file, const VoxelData& data, std::uint64
     decode(data, bytes.data(), wanted, values);
     take(values);
   }
-  for (std::size_t got; held <= count * step + kMostCounted && (got = read(bytes.size())) > 0;) held += got;
+  for (std::size_t got; held <= count * step + kMaxCounted && (got = read(bytes.size())) > 0;) held += got;
   if (held != count * step)
-    refuse_size(header_file, count * step, held, held > count * step + kMostCounted ? "more than " : "");
+    refuse_size(header_file, count * step, held, held > count * step + kMaxCounted ? "more than " : "");
 }
 
 }  // namespace insonate

@@ -12,7 +12,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/imaging/simulator.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_simulator.h"
 #include "tests/accuracy/stressed.h"
 #include "tests/imaging/parity.h"
 #include "tests/imaging/real_ct.h"

@@ -104,12 +104,12 @@ inline std::vector<ExtremeCase> extreme_volumes(int side = 1) {
 }
 
 /// Fills the volume with as many layers as 2000 voxels hold, close to the largest axis that every device supports.
-/// @param voxels_a_layer  thickness of a layer, as the side of board()
-inline std::vector<ExtremeCase> layers_in_a_row(int voxels_a_layer = 1) {
+/// @param voxels_per_layer  thickness of a layer, as the side of board()
+inline std::vector<ExtremeCase> layers_in_a_row(int voxels_per_layer = 1) {
   const auto layers = [=](int one, int other) {
     return [=](Scene& scene) {
       scene.volume = make_volume({2, 2000, 2}, {40, 0.1, 40},
-                                 [&](const glm::ivec3& i) { return i.y / voxels_a_layer % 2 ? one : other; });
+                                 [&](const glm::ivec3& i) { return i.y / voxels_per_layer % 2 ? one : other; });
       scene.probe.kind = ProbeKind::linear;
       scene.probe.width_mm = 20;
       scene.probe.lines = 4;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/registration/wein_reference.h"
+#include "sim/wein/wein_reference.h"
 #include "tests/accuracy/media.h"
 
 using namespace insonate;

@@ -132,7 +132,7 @@ TEST_CASE("an echo is interpolated between the lattice's points and keeps their 
         return Medium{60, 0};
       },
       plain_table(), lines, settings, along_the_lattice(cell));
-  const double amplitude = 1 - std::pow(10, kSilentDb / 10);
+  const double amplitude = 1 - std::pow(10, kSilent_db / 10);
   double worst = 0;
   for (int k = 0; k < lines.samples; ++k) {
     const auto column = [&](int x) {

@@ -20,7 +20,7 @@ namespace {
 /// with few pixels (8192 samples, 0.40), and 0.70 or more overall. Of waves, e and f are compared everywhere, but grey
 /// may be compared nowhere: gas is 40 dB louder than tissue, and what is rounded of it hides the grains beside it.
 void check_each(const std::vector<ExtremeCase>& cases) {
-  const gl::WorkDivision division = GENERATE(line_an_invocation(), line_a_group(32));
+  const gl::WorkDivision division = GENERATE(line_an_invocation(), line_per_group(32));
   const bool waves = GENERATE(false, true);
   CAPTURE(division.lines_that_fill, waves);
   Stressed stressed(division);
@@ -170,6 +170,6 @@ TEST_CASE("no stage holds a denormal number, with which a processor is slow, whe
   }
 }
 
-TEST_CASE("poses that no hand holds") {
+TEST_CASE("extreme poses give finite and bounded stages") {
   check_each(extreme_poses());
 }

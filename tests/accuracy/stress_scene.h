@@ -14,8 +14,8 @@
 #include "sim/model/display_filter.h"
 #include "sim/model/settings.h"
 #include "sim/probe/probe.h"
-#include "sim/registration/wein_settings.h"
 #include "sim/tissue/acoustic_volume.h"
+#include "sim/wein/wein_settings.h"
 #include "tests/model/amplitudes.h"
 
 /// Stress inputs for the pipeline: everything that a picture depends on, up to the ends of its range.
@@ -227,12 +227,12 @@ inline Scene compiled_as(const Scene& first, Scene scene) {
   if (as.face_reflection > 0 && s.face_reflection == 0) s.face_reflection = as.face_reflection;
 
   // One, two or any number of samples per reflection length, as far as the ends of the range allow.
-  const auto samples_a_length = [](const Scene& of) {
+  const auto samples_per_length = [](const Scene& of) {
     return of.settings.reflection_length_mm * of.settings.samples / of.depth_mm;
   };
   const auto one_or_two = [](double n) { return std::abs(n - 1) < 1e-6 || std::abs(n - 2) < 1e-6; };
-  double wanted = samples_a_length(one_or_two(samples_a_length(first)) ? first : scene);
-  if (one_or_two(wanted) && !one_or_two(samples_a_length(first))) wanted *= 1.25;
+  double wanted = samples_per_length(one_or_two(samples_per_length(first)) ? first : scene);
+  if (one_or_two(wanted) && !one_or_two(samples_per_length(first))) wanted *= 1.25;
   s.reflection_length_mm = std::clamp(wanted * scene.depth_mm / s.samples, 0.01, 20.0);
 
   // Smoothed over equally many pixels.
@@ -260,7 +260,7 @@ inline WeinSettings random_wein_settings(std::uint32_t seed) {
   s.reflection_share = draw.within(0, 1);
   s.image_width = draw.whole(1, 48);
   s.image_height = draw.whole(1, 48);
-  s.similarity_patch = draw.one_of({0, 0, kLeastPatch, 17, kMostPatch});
+  s.similarity_patch = draw.one_of({0, 0, kMinPatch, 17, kMaxPatch});
   return s;
 }
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/registration/wein_reference.h"
-#include "sim/registration/wein_settings_file.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_reference.h"
+#include "sim/wein/wein_settings_file.h"
+#include "sim/wein/wein_simulator.h"
 #include "tests/accuracy/extreme_cases.h"
 #include "tests/accuracy/stress_bounds.h"
 #include "tests/gl/test_context.h"
@@ -54,7 +54,7 @@ std::string out_of_bounds(const WeinStages<Real>& stages, const Image<std::uint8
   return "";
 }
 
-/// What model W meets in a volume with the gradient that sim/registration/density_volume.h stores: differences at the
+/// What model W meets in a volume with the gradient that sim/wein/density_volume.h stores: differences at the
 /// voxels, clipped to the range of 16 bits.
 class StoredMedium {
 public:
@@ -65,8 +65,8 @@ public:
         for (int x = 0; x < grid_.size.x; ++x) {
           const glm::dvec3 gradient = exact_(grid_.patient_from_index({x, y, z})).gradient_hu;
           const glm::dvec3 along_axes = glm::transpose(grid_.direction) * gradient;
-          cut_off_ = cut_off_ || glm::any(glm::greaterThan(glm::abs(along_axes), glm::dvec3(kMost)));
-          differences_[grid_.offset({x, y, z})] = glm::clamp(along_axes, -kMost, kMost);
+          cut_off_ = cut_off_ || glm::any(glm::greaterThan(glm::abs(along_axes), glm::dvec3(kMax)));
+          differences_[grid_.offset({x, y, z})] = glm::clamp(along_axes, -kMax, kMax);
         }
   }
 
@@ -86,7 +86,7 @@ public:
   }
 
 private:
-  static constexpr double kStepsPerHu = 8, kMost = 32767 / kStepsPerHu;
+  static constexpr double kStepsPerHu = 8, kMax = 32767 / kStepsPerHu;
 
   WeinField between(std::vector<glm::dvec3> differences) const {
     return [grid = grid_, exact = exact_, differences = std::move(differences)](const glm::dvec3& p) {
@@ -282,10 +282,10 @@ TEST_CASE("model W: thousands of interfaces in a row") {
 }
 
 TEST_CASE("model W: sound that hardly fades, over 40,000 reflection lengths") {
-  const auto slopes = [](int hu_a_voxel) {
+  const auto slopes = [](int hu_per_voxel) {
     return [=](Scene& scene) {
       scene.volume = make_volume({2, 2000, 2}, {400, 0.4, 400},
-                                 [=](const glm::ivec3& i) { return hu_a_voxel * std::abs(i.y % 40 - 20); });
+                                 [=](const glm::ivec3& i) { return hu_per_voxel * std::abs(i.y % 40 - 20); });
       scene.probe.kind = ProbeKind::linear;
       scene.probe.lines = 4;
       scene.depth_mm = 800;
@@ -304,7 +304,7 @@ TEST_CASE("model W: sound that hardly fades, over 40,000 reflection lengths") {
   });
 }
 
-TEST_CASE("model W: poses that no hand holds") {
+TEST_CASE("model W: extreme poses give finite and bounded stages") {
   check_each(extreme_poses());
 }
 

@@ -140,7 +140,7 @@ std::string disagreement_of_amplitudes(const Scene& scene, const Stages<double>&
       beside.echo,
       int(std::min(std::ceil(smoothed_mm / picture.mm_per_pixel), double(std::max(around.width, around.height)))));
   const double place = 2.4e-7 * std::max(expected.intensity.width, expected.intensity.height);
-  fused_tolerance = spread.tolerated(expected, &S::fused, [](double) { return kLeastEcho; });
+  fused_tolerance = spread.tolerated(expected, &S::fused, [](double) { return kMinEcho; });
   for (std::size_t i = 0; i < around.pixels.size(); ++i)
     fused_tolerance.pixels[i] +=
         1e-3 * around.pixels[i] + place * beside.fused.pixels[i] + kSilentRounding * silent.pixels[i];
@@ -181,7 +181,7 @@ std::string disagreement(const Scene& scene, const Stages<double>& expected, con
 
   for (std::size_t i = 0; i < expected.grey.pixels.size(); ++i) {
     const double u = expected.fused.pixels[i];
-    if (!expected.inside.pixels[i] || u <= kLeastEcho) continue;
+    if (!expected.inside.pixels[i] || u <= kMinEcho) continue;
     ++extent.with_echo;
     if (fused_tolerance.pixels[i] >= 0.5 * u) continue;
     ++extent.in_grey;

@@ -73,7 +73,7 @@ std::string disagreement_of_waves(const Scene& scene, const Stages<double>& expe
   const double of_angle = lines.fan.face == LineFan::Face::parallel ? 0 : 6e-7 / lines.fan.step;
   const WaveTolerance of_rounding = wave_tolerance(expected, rounding, lines, scene.settings, 5e-4 + of_angle);
   const auto allowed = [&](Image<double> S::*part, const Image<double>& rounded) {
-    Image<double> tolerance = spread.tolerated(expected, part, [](double) { return 1e-15; });  // of kLeastEcho's root
+    Image<double> tolerance = spread.tolerated(expected, part, [](double) { return 1e-15; });  // of kMinEcho's root
     for (std::size_t i = 0; i < tolerance.pixels.size(); ++i) tolerance.pixels[i] += rounded.pixels[i];
     return tolerance;
   };
@@ -103,9 +103,9 @@ std::string disagreement_of_waves(const Scene& scene, const Stages<double>& expe
         const auto k = std::size_t(std::clamp(at->r_mm / lines.dr_mm() - 0.5, 0.0, double(lines.samples - 1)));
         const double haze = std::max(of_haze[k], of_haze[std::min(k + 1, of_haze.size() - 1)]);
         fused_tolerance.at(x, y) =
-            2 * std::sqrt(u) * of_wave + of_wave * of_wave + beside.of_repeated + (1e-3 + haze) * u + kLeastEcho;
+            2 * std::sqrt(u) * of_wave + of_wave * of_wave + beside.of_repeated + (1e-3 + haze) * u + kMinEcho;
       } else {
-        fused_tolerance.at(x, y) = kLeastEcho;
+        fused_tolerance.at(x, y) = kMinEcho;
       }
   return "";
 }

@@ -24,9 +24,9 @@ Transducer with_pulse(double frequency_mhz, double bandwidth_percent, double cyc
 
 // The analytic pulse at a time, by the inverse Fourier integral.
 Complex pulse_at(const Pulse& pulse, double time_us) {
-  constexpr double kStep = 0.005, kMost = 40;  // MHz; the pulse repeats after 200 us
+  constexpr double kStep = 0.005, kMax = 40;  // MHz; the pulse repeats after 200 us
   Complex sum = 0;
-  for (double f = kStep / 2; f < kMost; f += kStep)
+  for (double f = kStep / 2; f < kMax; f += kStep)
     sum += kStep * pulse.spectrum(f) * std::polar(1.0, glm::two_pi<double>() * f * time_us);
   return sum;
 }

@@ -43,7 +43,7 @@ TEST_CASE("a button that is pressed during a dropout acts when it is reported, o
   }
 }
 
-TEST_CASE("what is held when somebody begins to look was pressed for somebody else, also behind a dropout") {
+TEST_CASE("buttons that are held at the start are ignored, also behind a dropout") {
   for (const PoseStatus first : {PoseStatus::ok, PoseStatus::missing, PoseStatus::out_of_view}) {
     CAPTURE(to_string(first));
     ButtonPresses presses;

@@ -67,7 +67,7 @@ TEST_CASE("the rotation that is taken for a matrix is the nearest one") {
   // The polar decomposition: of a rotation times a symmetric positive stretch the rotation is nearest.
   const glm::dmat4 matrix(exact * stretch);
   REQUIRE(why_not_rigid(matrix));
-  REQUIRE_FALSE(why_not_rigid(matrix, kTrackerRangeMm, 2e-3));
+  REQUIRE_FALSE(why_not_rigid(matrix, kTrackerRange_mm, 2e-3));
   const glm::dmat3 nearest = pose_from_matrix(matrix).rotation;
   for (int c = 0; c < 3; ++c) CHECK(glm::length(nearest[c] - exact[c]) < 1e-15);
 }

@@ -79,7 +79,7 @@ TEST_CASE("a prediction is nearer to the probe than the newest sample, up to its
     CHECK(figures.predicted_mm < left_mm);
   }
   const PredictionFigures capped = measure_prediction(60, 0.2);
-  CHECK(capped.predicted_mm > measure_prediction(60, 0.2 - PoseHistory::kPredictS).held_mm * 0.8);
+  CHECK(capped.predicted_mm > measure_prediction(60, 0.2 - PoseHistory::kPredict_s).held_mm * 0.8);
 }
 
 TEST_CASE("of a hand's samples nearly none are rejected, of strays and mirrored ones nearly all") {

@@ -73,12 +73,12 @@ TEST_CASE("after the last sample a steady motion is predicted for 30 ms, then he
   for (const double ahead_s : {0.031, 0.1, 0.249}) {
     const PoseEstimate held = poses.at(1 + ahead_s);
     CHECK(held.how == PoseAnswer::held);
-    CHECK(distance_mm(held, moving(1 + PoseHistory::kPredictS)) < 1e-9);
+    CHECK(distance_mm(held, moving(1 + PoseHistory::kPredict_s)) < 1e-9);
   }
   for (const double ahead_s : {0.251, 1.0, 3600.0}) {
     const PoseEstimate stale = poses.at(1 + ahead_s);
     CHECK(stale.how == PoseAnswer::stale);
-    CHECK(distance_mm(stale, moving(1 + PoseHistory::kPredictS)) < 1e-9);
+    CHECK(distance_mm(stale, moving(1 + PoseHistory::kPredict_s)) < 1e-9);
   }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("a long gap is not bridged by a straight line") {
   poses.add(usable(1.5));
   CHECK(poses.at(1.09).how == PoseAnswer::held);
   CHECK(poses.at(1.4).how == PoseAnswer::stale);
-  CHECK(distance_mm(poses.at(1.4), moving(1 + PoseHistory::kPredictS)) < 1e-9);
+  CHECK(distance_mm(poses.at(1.4), moving(1 + PoseHistory::kPredict_s)) < 1e-9);
   // A single sample after the gap has no velocity to predict with.
   CHECK(distance_mm(poses.at(1.52), moving(1.5)) < 1e-9);
 }

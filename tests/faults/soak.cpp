@@ -44,7 +44,7 @@ namespace fs = std::filesystem;
 
 constexpr double kReports_Hz = 60;
 constexpr double kMemoryEvery_s = 2;
-constexpr double kMostGrowth_kib_h = 2048;
+constexpr double kMaxGrowth_kib_h = 2048;
 
 /// A Hydra that is pulled out and plugged in again at random.
 class Plug {
@@ -291,7 +291,7 @@ private:
                  [&](const Memory& one) { return one.at_s >= warm_s && one.at_s < seconds_; });
     const double kib_h = growth(warm), hours = (seconds_ - warm_s) / 3600;
     // In less than an hour, less than that in all: a short run shows little about an hour.
-    const double most_kib_h = kMostGrowth_kib_h * std::max(1.0, 1 / hours);
+    const double most_kib_h = kMaxGrowth_kib_h * std::max(1.0, 1 / hours);
     expect(warm.size() > 10 && kib_h < most_kib_h, "the trainer's memory grows");
     std::printf("%-28s %.0f s, seed %u\n", "ran for", seconds_, seed_);
     std::printf("%-28s %d times the trainer's, %d times the exams'\n", "unplugged", trainers_plug_.unplugged(),

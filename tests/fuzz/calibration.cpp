@@ -13,7 +13,7 @@ const Target calibration_target("calibration", [](std::string_view bytes) -> std
   calibration_warnings(calibration, calibration.tracker, 1'700'000'000);
   if (!why_incomplete(calibration).empty()) return "";
   made_s(calibration);
-  if (why_not_rigid(calibration.patient_from_probe(Pose{}).matrix(), 4 * kTrackerRangeMm))
+  if (why_not_rigid(calibration.patient_from_probe(Pose{}).matrix(), 4 * kTrackerRange_mm))
     return "the probe's pose is not rigid";
   return "";
 });

@@ -70,10 +70,10 @@ extern "C" void __assert_fail(const char* assertion, const char* file, unsigned 
 
 // GDCM allocates the lengths that a file states. In the subprocess a limit of memory makes that fail. Here operator new
 // fails, before AddressSanitizer spends its time on the block, and what malloc returned ends the input.
-constexpr std::size_t kMost = std::size_t(256) << 10;
+constexpr std::size_t kMax = std::size_t(256) << 10;
 
 void* operator new(std::size_t size) {
-  if (decoding && size > kMost) throw std::bad_alloc();
+  if (decoding && size > kMax) throw std::bad_alloc();
   if (void* const block = std::malloc(size)) return block;
   throw std::bad_alloc();
 }
@@ -99,7 +99,7 @@ void operator delete[](void* block, std::size_t) noexcept {
 }
 
 extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t size) {
-  if (decoding && size > kMost) siglongjmp(input_ends, SIGABRT);
+  if (decoding && size > kMax) siglongjmp(input_ends, SIGABRT);
 }
 #endif
 

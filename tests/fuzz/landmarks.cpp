@@ -15,7 +15,7 @@ std::string broken_by_landmarks(const std::filesystem::path& file) {
     if (!names.insert(landmark.name).second) return "two landmarks have one name";
     held_out += landmark.held_out ? 1 : 0;
   }
-  return held_out > 0 && list.landmarks.size() >= held_out + kLeastLandmarks && list.landmarks.size() <= 64
+  return held_out > 0 && list.landmarks.size() >= held_out + kMinLandmarks && list.landmarks.size() <= 64
              ? ""
              : "too few or too many landmarks were taken";
 }

@@ -9,8 +9,8 @@ namespace {
 const Target preferences_target("preferences", [](std::string_view bytes) -> std::string {
   const Preferences preferences = read_preferences(file_with("settings.toml", bytes));
   const WindowLevel& grey = preferences.ct.grey;
-  if (!(grey.window_hu >= WindowLevel::kLeastWindow && grey.window_hu <= WindowLevel::kMostWindow) ||
-      !(grey.level_hu >= WindowLevel::kLeastLevel && grey.level_hu <= WindowLevel::kMostLevel))
+  if (!(grey.window_hu >= WindowLevel::kMinWindow && grey.window_hu <= WindowLevel::kMaxWindow) ||
+      !(grey.level_hu >= WindowLevel::kMinLevel && grey.level_hu <= WindowLevel::kMaxLevel))
     return "a grey scale is out of range";
   quality_named(preferences.quality);
   const std::filesystem::path again = file_with("again.toml", "");

@@ -8,7 +8,7 @@
 namespace insonate::fuzz {
 namespace {
 
-constexpr std::size_t kMostMade = 1000;  ///< voxels: larger ones take the fuzzer's time and show nothing new
+constexpr std::size_t kMaxMade = 1000;  ///< voxels: larger ones take the fuzzer's time and show nothing new
 
 const Target recipe_target("recipe", [](std::string_view bytes) -> std::string {
   const std::string text(bytes);
@@ -18,7 +18,7 @@ const Target recipe_target("recipe", [](std::string_view bytes) -> std::string {
     if (!shape.shape || shape.label >= plan.labels.size()) return "a shape has no label";
   for (int axis = 0; axis < 3; ++axis)
     if (plan.grid.size[axis] < 1 || !(plan.grid.spacing[axis] > 0)) return "the grid is empty";
-  if (plan.grid.count() > kMostMade) return "";
+  if (plan.grid.count() > kMaxMade) return "";
   const Case subject = make_phantom("fuzzed.toml", text);
   if (subject.ct.voxels.size() != plan.grid.count() || subject.labels.voxels.size() != plan.grid.count())
     return "the volumes are not as large as the grid";

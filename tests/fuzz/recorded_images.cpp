@@ -10,7 +10,7 @@
 namespace insonate::fuzz {
 namespace {
 
-constexpr std::size_t kMostRead = 8;  ///< images: more take the fuzzer's time and show nothing new
+constexpr std::size_t kMaxRead = 8;  ///< images: more take the fuzzer's time and show nothing new
 
 std::string broken_by_images(const std::filesystem::path& file) {
   RecordingOptions options;
@@ -18,7 +18,7 @@ std::string broken_by_images(const std::filesystem::path& file) {
   const RecordedScan scan = read_recorded_scan(file, options);
   if (!scan.images) return "";
   if (scan.images->frames.size() != scan.samples.size()) return "there is not an image per sample";
-  const std::size_t count = std::min(scan.images->frames.size(), kMostRead);
+  const std::size_t count = std::min(scan.images->frames.size(), kMaxRead);
   std::vector<Image<std::uint8_t>> forwards;
   ImageReader reader(*scan.images);
   for (std::size_t i = 0; i < count; ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 std::string broken_in(const std::filesystem::path& file) {
   const std::vector<std::string> ids = read_roster(file);
-  if (ids.empty() || ids.size() > kMostLearners) return "a list of none or of too many was taken";
+  if (ids.empty() || ids.size() > kMaxLearners) return "a list of none or of too many was taken";
   for (const std::string& id : ids)
     if (!why_no_learner_id(id).empty()) return "an id was taken that is none";
   if (std::set<std::string>(ids.begin(), ids.end()).size() != ids.size()) return "an id stands there twice";

@@ -15,7 +15,7 @@ bool holds(const NumberRange& range, double least, double most) {
 
 const Target study_target("study", [](std::string_view bytes) -> std::string {
   const Study study = read_study(file_with("study.toml", bytes));
-  if (study.images == 0 || study.shards() == 0 || study.shards() > kMostShards)
+  if (study.images == 0 || study.shards() == 0 || study.shards() > kMaxShards)
     return "it has no images or too many shards";
   if (study.cases.empty() || study.probes.empty() || study.poses.empty()) return "it lacks a case, a probe or poses";
   for (const StudyCase& subject : study.cases)

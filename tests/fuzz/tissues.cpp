@@ -14,12 +14,12 @@ bool is_echogenicity(double db) {
 const Target tissues_target("tissues", [](std::string_view bytes) -> std::string {
   const TissueTable table = read_tissue_table(file_with("tissues.toml", bytes));
   if (table.knots.size() < 2) return "fewer than two knots were taken";
-  int before = kLeastKnotHu - 1;
+  int before = kMinKnot_hu - 1;
   for (const TissueKnot& knot : table.knots) {
-    if (knot.hu <= before || knot.hu > kMostKnotHu) return "the knots do not rise within their range";
+    if (knot.hu <= before || knot.hu > kMaxKnot_hu) return "the knots do not rise within their range";
     before = knot.hu;
   }
-  for (int hu = kLeastKnotHu - 100; hu <= kMostKnotHu + 100; hu += 13) {
+  for (int hu = kMinKnot_hu - 100; hu <= kMaxKnot_hu + 100; hu += 13) {
     const TissueKnot at = table.at(hu + 0.5);
     if (!(at.impedance_mrayl > 0) || !(at.absorption_db_cm_mhz >= 0) || !is_echogenicity(at.echogenicity_db) ||
         !std::isfinite(at.impedance_mrayl) || !std::isfinite(at.absorption_db_cm_mhz))
@@ -27,7 +27,7 @@ const Target tissues_target("tissues", [](std::string_view bytes) -> std::string
   }
   for (const auto& [name, tissue] : table.labelled)
     if (name.empty() || !is_echogenicity(tissue.echogenicity_db)) return "a tissue is out of range";
-  if (table.densest_air_hu() > kMostAirHu) return "air is denser than air";
+  if (table.densest_air_hu() > kMaxAir_hu) return "air is denser than air";
   return "";
 });
 

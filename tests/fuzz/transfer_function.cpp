@@ -12,15 +12,14 @@ using namespace view;
 
 bool is_within(const TransferPoint& point) {
   const auto is_share = [](double value) { return value >= 0 && value <= 1; };
-  return point.hu >= kFirstTransferHu && point.hu <= kLastTransferHu && point.opacity >= 0 &&
-         point.opacity <= kMostOpacity && is_share(point.colour.r) && is_share(point.colour.g) &&
+  return point.hu >= kFirstTransfer_hu && point.hu <= kLastTransfer_hu && point.opacity >= 0 &&
+         point.opacity <= kMaxOpacity && is_share(point.colour.r) && is_share(point.colour.g) &&
          is_share(point.colour.b);
 }
 
 const Target transfer_function_target("transfer_function", [](std::string_view bytes) -> std::string {
   const TransferFunction function = read_transfer_function(file_with("look.toml", bytes));
-  if (function.points.size() < 2 || function.points.size() > kMostTransferPoints)
-    return "it has too few or many points";
+  if (function.points.size() < 2 || function.points.size() > kMaxTransferPoints) return "it has too few or many points";
   for (std::size_t i = 0; i < function.points.size(); ++i) {
     if (!is_within(function.points[i])) return "a point is out of range";
     if (i > 0 && !(function.points[i].hu > function.points[i - 1].hu)) return "its points do not rise";

@@ -1,5 +1,5 @@
 // Settings of model W.
-#include "sim/registration/wein_settings_file.h"
+#include "sim/wein/wein_settings_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace insonate::fuzz {

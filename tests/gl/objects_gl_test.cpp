@@ -81,7 +81,7 @@ TEST_CASE("each dispatch sees what was streamed last before it") {
   }
   buffer.read(kept.data(), kept.size() * sizeof(int));
   for (int i = 0; i < kDispatches; ++i) CHECK(kept[std::size_t(i)] == 7 * i);
-  CHECK(given.storages() <= gl::StreamedBuffer::kMostStorages);
+  CHECK(given.storages() <= gl::StreamedBuffer::kMaxStorages);
   CHECK(glGetError() == GL_NO_ERROR);
 }
 

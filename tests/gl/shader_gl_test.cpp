@@ -88,13 +88,13 @@ TEST_CASE("a program goes back to defines it was built for without building, unt
   write_shader("#if SIZE == 50\nundefined_name a;\n#endif\n");
   gl::Program program(shaders.read(), {"imaging/clutter.comp"}, of_size(1));
   std::vector<GLuint> names = {0, program.name()};
-  for (std::size_t size = 2; size <= gl::Program::kMostKept; ++size) {
+  for (std::size_t size = 2; size <= gl::Program::kMaxKept; ++size) {
     program.define(of_size(size));
     names.push_back(program.name());
   }
-  CHECK(std::set(names.begin(), names.end()).size() == 1 + gl::Program::kMostKept);
+  CHECK(std::set(names.begin(), names.end()).size() == 1 + gl::Program::kMaxKept);
 
-  for (const std::size_t size : {std::size_t(1), gl::Program::kMostKept, std::size_t(2)}) {
+  for (const std::size_t size : {std::size_t(1), gl::Program::kMaxKept, std::size_t(2)}) {
     program.define(of_size(size));
     CHECK(program.name() == names[size]);
     GLint group[3] = {};

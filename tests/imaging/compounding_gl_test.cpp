@@ -67,7 +67,7 @@ TEST_CASE("compounded pictures agree with the reference: every stage of the stra
   const MediumField field = trilinear_field(body);
   const test::ReferenceStages reference =
       test::reference_stages(field, test::tissues(), probe, depth_mm, settings, pose);
-  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_a_group()}) {
+  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_per_group()}) {
     gl::Simulator simulator({}, division);
     simulator.set_volume(body, test::tissues());
     simulator.set_probe(probe, depth_mm);

@@ -39,7 +39,8 @@ TEST_CASE("in a homogeneous medium sound is absorbed exactly, however many sampl
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   Probe probe = *find_probe("linear");
   probe.lines = 4;
-  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_a_group(), test::line_a_group(128));
+  const gl::WorkDivision division =
+      GENERATE(test::line_an_invocation(), test::line_per_group(), test::line_per_group(128));
   CAPTURE(division.lines_that_fill, division.group);
   gl::Simulator simulator({}, division);
   simulator.set_volume(medium(std::int16_t(kHu), std::int16_t(kHu)), table);
@@ -89,7 +90,7 @@ TEST_CASE("where the CT ends sound is absorbed, also without absorption, and not
       const Stages<double> reference =
           simulate_reference(trilinear_field(volume), table, probe, kDepth_mm, settings, at_y(-200));
       const double a =
-          kEndAbsorption * std::pow(kEndlessDb - kEnd, 2) + (absorption ? table.at(60).absorption_db_cm_mhz : 0);
+          kEndAbsorption * std::pow(kEndless_db - kEnd, 2) + (absorption ? table.at(60).absorption_db_cm_mhz : 0);
       double worst = 0;
       for (int k = 0; k < stages.intensity.height; ++k) {
         const double expected =

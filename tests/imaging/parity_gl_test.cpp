@@ -27,7 +27,8 @@ void check_parity_as_set(const Probe& probe, double depth_mm, Settings settings,
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   const MediumField field = trilinear_field(body);
   const test::ReferenceStages reference = test::reference_stages(field, table, probe, depth_mm, settings, pose);
-  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_a_group(), test::line_a_group(32)}) {
+  for (const gl::WorkDivision& division :
+       {test::line_an_invocation(), test::line_per_group(), test::line_per_group(32)}) {
     gl::Simulator simulator({}, division);
     simulator.set_volume(body, table);
     simulator.set_probe(probe, depth_mm);
@@ -228,7 +229,7 @@ TEST_CASE("a frame without any echo is black, not NaN") {
 
 TEST_CASE("what is skipped changes no pixel by more than a grey level") {
   const test::TestContext context;
-  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_a_group());
+  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_per_group());
   CAPTURE(division.lines_that_fill);
   gl::Simulator simulator({}, division);
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
@@ -291,7 +292,7 @@ TEST_CASE("what is skipped changes no pixel by more than a grey level") {
 
 TEST_CASE("a line that meets no body does not start") {
   const test::TestContext context;
-  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_a_group()));
+  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_per_group()));
   simulator.set_volume(test::test_body(), read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
   const Probe probe = *find_probe("linear");
   simulator.set_probe(probe, 50);
@@ -318,7 +319,7 @@ TEST_CASE("a line that meets no body does not start") {
 
 TEST_CASE("where there is only air no line starts, and one starts that passes beside the body") {
   const test::TestContext context;
-  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_a_group()));
+  gl::Simulator simulator({}, GENERATE(test::line_an_invocation(), test::line_per_group()));
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   AcousticVolume block;
   block.grid.size = {20, 40, 20};

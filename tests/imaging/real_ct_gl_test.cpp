@@ -20,7 +20,7 @@ using namespace insonate;
 
 namespace {
 
-constexpr double kDepthMm = 160;
+constexpr double kScanDepth_mm = 160;
 
 struct Look {
   ScanLines lines;
@@ -29,12 +29,12 @@ struct Look {
 
 Look look(gl::Simulator& simulator, const Pose& pose, const std::string& picture) {
   const Probe& probe = *find_probe("curvilinear");
-  Settings settings = test::trainer_with_amplitudes(probe.frequency_mhz, kDepthMm);
+  Settings settings = test::trainer_with_amplitudes(probe.frequency_mhz, kScanDepth_mm);
   settings.slice_planes = 1;  // the test looks up what a line meets along that line only
-  simulator.set_probe(probe, kDepthMm);
+  simulator.set_probe(probe, kScanDepth_mm);
   simulator.set_settings(settings);
   simulator.set_pose(pose);
-  Look seen{scan_lines(probe, kDepthMm, settings.samples), simulator.read_stages()};
+  Look seen{scan_lines(probe, kScanDepth_mm, settings.samples), simulator.read_stages()};
   write_png(std::filesystem::path(INSONATE_PICTURES_FOLDER) / (picture + ".png"), mirrored(seen.stages.grey));
   return seen;
 }

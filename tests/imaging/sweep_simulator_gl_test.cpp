@@ -51,7 +51,7 @@ long count_of_different(const std::vector<Number>& a, const std::vector<Number>&
 }  // namespace
 
 TEST_CASE("the lines of many planes hold what each plane's picture holds, to the last bit") {
-  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_a_group());
+  const gl::WorkDivision division = GENERATE(test::line_an_invocation(), test::line_per_group());
   CAPTURE(division.lines_that_fill);
   // Windows too wide for the array: a window that continued into the next plane's lines would take its other end.
   for (const bool focused : {false, true}) {

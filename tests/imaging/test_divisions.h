@@ -13,7 +13,7 @@ inline gl::WorkDivision line_an_invocation(int group = 8) {
   return division;
 }
 
-inline gl::WorkDivision line_a_group(int group = 8) {
+inline gl::WorkDivision line_per_group(int group = 8) {
   gl::WorkDivision division = line_an_invocation(group);
   division.lines_that_fill = std::numeric_limits<std::size_t>::max();
   return division;

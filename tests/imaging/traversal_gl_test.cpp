@@ -37,7 +37,7 @@ Drawn drawn(const Probe& probe, const Settings& settings, const gl::WorkDivision
 /// One case: invocations per group, lines, samples per line, and samples per reflection length.
 struct Stretched {
   int group, lines, samples;
-  double samples_a_length;
+  double samples_per_length;
 };
 
 /// Returns how many samples differ by more than rounding explains. The logarithm of I, down to -46 before a line ends,
@@ -64,19 +64,19 @@ TEST_CASE("lines that groups walk along carry what they do where invocations wal
   for (const Stretched& of : {Stretched{4, 61, 90, 2}, Stretched{8, 61, 301, 1}, Stretched{8, 1, 8, 2},
                               Stretched{32, 61, 301, 2}, Stretched{32, 5, 1, 2}, Stretched{32, 3, 8192, 2},
                               Stretched{128, 61, 301, 1.3}, Stretched{128, 1, 100, 2}, Stretched{128, 17, 129, 2}}) {
-    CAPTURE(of.group, of.lines, of.samples, of.samples_a_length);
+    CAPTURE(of.group, of.lines, of.samples, of.samples_per_length);
     Probe probe = *find_probe("curvilinear");
     probe.lines = of.lines;
     Settings settings = test::everything();
     settings.image_width = 120;
     settings.image_height = 90;
     settings.samples = of.samples;
-    settings.reflection_length_mm = std::min(of.samples_a_length * test::kDepth_mm / of.samples, 20.0);
+    settings.reflection_length_mm = std::min(of.samples_per_length * test::kDepth_mm / of.samples, 20.0);
     for (const bool skipping : {true, false}) {
       CAPTURE(skipping);
       settings.skipping = skipping;
       const Drawn expected = drawn(probe, settings, test::line_an_invocation());
-      const Drawn got = drawn(probe, settings, test::line_a_group(of.group));
+      const Drawn got = drawn(probe, settings, test::line_per_group(of.group));
       CHECK(count_of_different(expected.stages.intensity, got.stages.intensity) == 0);
       CHECK(count_of_different(expected.stages.reflection, got.stages.reflection) == 0);
       CHECK(count_of_rising(got.stages.intensity) == 0);

@@ -33,7 +33,7 @@ Case scan_with_noise(const std::filesystem::path& file, double noise_hu) {
   std::normal_distribution<double> noise;
   for (std::int16_t& hu : subject.ct.voxels)
     hu = std::int16_t(std::max(-1024.0, hu + std::round(noise_hu * noise(random))));
-  subject.ct = resample_isotropic(subject.ct, kInsonatedVoxelMm);
+  subject.ct = resample_isotropic(subject.ct, kInsonatedVoxel_mm);
   return subject;
 }
 

@@ -10,7 +10,7 @@
 
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/view_limits.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_sweeps.h"
 

@@ -156,7 +156,7 @@ TEST_CASE("a move of the probe by a hundredth of a millimetre changes the echo's
 }
 
 TEST_CASE("the lines of many planes hold what each plane's picture holds, with waves") {
-  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_a_group()}) {
+  for (const gl::WorkDivision& division : {test::line_an_invocation(), test::line_per_group()}) {
     Settings settings = test::everything();
     settings.waves = true;
     settings.specular_exponent = 6;

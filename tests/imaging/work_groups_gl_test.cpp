@@ -15,8 +15,8 @@
 #include "sim/imaging/fan_layout.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/sweep_conversion.h"
-#include "sim/registration/pixel_table.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/pixel_table.h"
+#include "sim/wein/wein_simulator.h"
 #include "tests/gl/test_context.h"
 #include "tests/imaging/test_body.h"
 
@@ -189,8 +189,8 @@ TEST_CASE("LC2's sums fit a texture, however large the picture and the groups an
   for (const std::size_t group : {8, 32, 128}) {
     CAPTURE(group);
     CHECK(3 * table_of(1600, 1000, 0, group).columns <= 16384);
-    const gl::PixelTable patches = table_of(kMostPatches / 2 * kLeastPatch, 2 * kLeastPatch, kLeastPatch, group);
-    CHECK(patches.columns >= std::size_t(kMostPatches));
+    const gl::PixelTable patches = table_of(kMaxPatches / 2 * kMinPatch, 2 * kMinPatch, kMinPatch, group);
+    CHECK(patches.columns >= std::size_t(kMaxPatches));
     CHECK(3 * patches.columns <= 16384);
   }
 }

@@ -11,7 +11,7 @@
 
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
-#include "sim/registration/wein_settings_file.h"
+#include "sim/wein/wein_settings_file.h"
 
 using namespace insonate;
 

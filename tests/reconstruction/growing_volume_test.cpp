@@ -44,7 +44,7 @@ TEST_CASE("a volume that grows with the sweep has the voxels of one whose grid w
   for (const double step_mm : {0.5, -0.5}) {
     const HandSweep sweep{.step_mm = step_mm};
     const auto pictures = sweep.pictures_of(kWaves);
-    const ReconstructedVolume volume = grown(pictures, 0.7, kMostReconstructedVoxels);
+    const ReconstructedVolume volume = grown(pictures, 0.7, kMaxReconstructedVoxels);
     Reconstruction whole(volume.grey.grid);
     whole.extend({3, 3, 3}, {3, 3, 3});
     for (const TrackedPicture& picture : pictures) whole.add(picture);
@@ -72,7 +72,7 @@ TEST_CASE("a grid that lies askew of the whole sweep is replaced at its end") {
     const glm::dmat4 tilt = glm::rotate(glm::dmat4(1.0), glm::radians(double(n)), glm::dvec3(1, 0, 0));
     pictures.push_back(picture_of(kWaves, oblique_pose() * Pose{glm::dmat3(tilt), {}}, sweep.geometry(), region, n));
   }
-  const Grid grid = grown(pictures, 0.7, kMostReconstructedVoxels).grey.grid;
+  const Grid grid = grown(pictures, 0.7, kMaxReconstructedVoxels).grey.grid;
   CHECK(grid == choose_grid(pictures, 0.7).grid);
   CHECK(angle_between_deg({grid.direction, {}}, oblique_pose()) == Approx(20));
 }

@@ -48,9 +48,9 @@ TEST_CASE("voxels are enlarged until they fit, and a sentence gives both sizes")
 
   auto far = pictures;
   far.back().patient_from_pixel[3] += glm::dvec4(9e4, 0, 0, 0);  // a tracker's stray pose
-  CHECK(choose_grid(far, 0.5).grid.count() <= kMostReconstructedVoxels);
+  CHECK(choose_grid(far, 0.5).grid.count() <= kMaxReconstructedVoxels);
   const glm::ivec3 size = choose_grid(far, 0.5).grid.size;
-  CHECK(std::max({size.x, size.y, size.z}) <= kMostReconstructedSide);
+  CHECK(std::max({size.x, size.y, size.z}) <= kMaxReconstructedSide);
 }
 
 TEST_CASE("pictures that turn by half a circle have a grid too") {

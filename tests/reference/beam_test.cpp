@@ -108,7 +108,7 @@ TEST_CASE("a slice of some thickness sees what lies beside a thin gap, and is as
   const auto echo_in_gap = [&](double gap_mm) {
     const auto stages = simulate_reference(
         [=](const glm::dvec3& p) {
-          return Medium{0, std::abs(p.z) < gap_mm / 2 ? kLeastEchogenicityDb : 0.0};
+          return Medium{0, std::abs(p.z) < gap_mm / 2 ? kMinEchogenicity_db : 0.0};
         },
         plain_table(), probe, 40, settings, {});
     return stages.fused.at(8, 8) / settings.blend;
@@ -133,7 +133,7 @@ TEST_CASE("a surface that is steep in the plane is a band, not a dash for each l
   const double slope = 1.2;
   const Stages<double> stages = simulate_reference(
       [=](const glm::dvec3& p) {
-        return Medium{p.y < 20 + slope * p.x ? 0.0 : 60.0, kLeastEchogenicityDb};
+        return Medium{p.y < 20 + slope * p.x ? 0.0 : 60.0, kMinEchogenicity_db};
       },
       read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe, 40, settings, {});
   const ImageGeometry geometry = image_geometry(probe, 40, 600, 600);

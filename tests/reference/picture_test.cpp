@@ -42,7 +42,7 @@ TEST_CASE("electronic noise comes before time gain: fluid is black where gain is
   const auto mean_grey = [&](double from, double to) {
     const auto stages = simulate_reference(
         [](const glm::dvec3&) {
-          return Medium{0, kLeastEchogenicityDb};
+          return Medium{0, kMinEchogenicity_db};
         },
         plain_table(), probe, 40, settings, {});
     double sum = 0, count = 0;
@@ -75,7 +75,7 @@ TEST_CASE("U is (R + b T) S, at the depth where each sample lies") {
         return Medium{100 * (2 * std::exp(0.07 * p.y) - 1), -3};
       },
       plain_table(), probe, 20, settings, {});
-  const double s = std::pow(10, -0.3) - std::pow(10, kSilentDb / 10);
+  const double s = std::pow(10, -0.3) - std::pow(10, kSilent_db / 10);
   const ImageGeometry geometry = image_geometry(probe, 20, 100, 100);
   int seen = 0;
   for (int y = 0; y < 100; ++y)

@@ -40,7 +40,7 @@ TEST_CASE("a thin layer draws a tail behind it, an echo each time that sound has
   const auto [scan, tail] = echoes(20, 2, 400, 0);
   const double first = area(scan.reflection, 22);
   for (int n = 1; n <= 4; ++n)
-    // What is left out counts 8 (kLeastRound/alpha^2)^2 a round, 2e-4.
+    // What is left out counts 8 (kMinRound/alpha^2)^2 a round, 2e-4.
     CHECK(area(tail, 22 + 2 * n) == Approx(first * std::pow(alpha * alpha, n)).epsilon(1e-3));
   CHECK(area(tail, 23) == 0);
   CHECK(area(tail, 22) == 0);

@@ -73,9 +73,9 @@ TEST_CASE("air against the face lets pass what an interface of water and air doe
   const TissueTable table = read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml");
   const double water = table.at(0).impedance_mrayl, air = table.at(-1000).impedance_mrayl;
   const ScanLines lines = one_line(60, 600);
-  const int samples_a_length = GENERATE(1, 2, 3, 8);
-  CAPTURE(samples_a_length);
-  Settings settings = without_absorption(samples_a_length * lines.dr_mm());
+  const int samples_per_length = GENERATE(1, 2, 3, 8);
+  CAPTURE(samples_per_length);
+  Settings settings = without_absorption(samples_per_length * lines.dr_mm());
   settings.gel_mm = 0;
   const MediumField nothing = [](const glm::dvec3&) { return Medium{-1000, -60}; };
   const double behind = traverse_reference(nothing, table, lines, settings, {}).intensity.at(0, 20);

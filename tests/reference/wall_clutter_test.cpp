@@ -84,7 +84,7 @@ TEST_CASE("behind a layered wall the front of a bladder is hazy, and its middle 
   table.knots = {{-100, 1.38, 0.5, 0}, {0, 1.48, 0.02, 0}, {60, 1.65, 0.5, 0}};
   const auto wall_and_urine = [](const glm::dvec3& p) {
     const double depth = p.y;
-    if (depth > kWall_mm) return Medium{0, kLeastEchogenicityDb};
+    if (depth > kWall_mm) return Medium{0, kMinEchogenicity_db};
     return std::fmod(depth, 6) < 1.5 ? Medium{-100, 0} : Medium{60, 0};
   };
   const auto mean_db = [&](double from_mm, double to_mm) {

@@ -35,13 +35,13 @@ TEST_CASE("a machine limits what an action asks for, and knows its own probes al
   CHECK(machine.transducer().name == "curvilinear");
   const auto set = [&](ActionKind kind, double value) { machine.apply({kind, {value}}, std::nullopt); };
   set(ActionKind::depth, 1e6);
-  CHECK(machine.depth_mm == Machine::kMostDepth_mm);
+  CHECK(machine.depth_mm == Machine::kMaxDepth_mm);
   set(ActionKind::dynamic_range, 0);
-  CHECK(machine.dynamic_range_db == Machine::kLeastDynamicRange_db);
+  CHECK(machine.dynamic_range_db == Machine::kMinDynamicRange_db);
   set(ActionKind::dynamic_range, 1e6);
-  CHECK(machine.dynamic_range_db == Machine::kMostDynamicRange_db);
+  CHECK(machine.dynamic_range_db == Machine::kMaxDynamicRange_db);
   machine.apply({ActionKind::time_gain, {8, -1e6}}, std::nullopt);
-  CHECK(machine.time_gain_db[7] == -Machine::kMostTimeGain_db);
+  CHECK(machine.time_gain_db[7] == -Machine::kMaxTimeGain_db);
   machine.apply({ActionKind::effect, {1e6}, "focus_mm"}, std::nullopt);
   CHECK(machine.effects == std::map<std::string, double>{{"focus_mm", 240}});
   const Machine before = machine;

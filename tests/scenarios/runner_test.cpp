@@ -407,7 +407,7 @@ TEST_CASE("what the screen shows follows the exam") {
   CHECK(to_json(runner.result()) == finished);
 }
 
-TEST_CASE("the marks of an exam under way are not called complete") {
+TEST_CASE("a result of an exam under way is not called complete") {
   Runner runner(tiny_scenario(), shared_case(), tiny_tissues());
   runner.feed(samples_of(1, 50, approach));
   CHECK_FALSE(runner.result().complete);

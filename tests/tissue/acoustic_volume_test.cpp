@@ -75,11 +75,11 @@ TEST_CASE("air scatters where it touches the body, and nowhere else") {
   auto ct = along_x({40, 9, 9}, 1, [](double x) { return x < 20 ? -990.0 : 60.0; });
   ct.voxels[ct.grid.offset({5, 4, 4})] = -400;  // denser than air: a part of something
   const AcousticVolume volume = make_acoustic_volume(ct, {}, {}, shipped());
-  CHECK(echogenicity_db(volume, {0, 0, 0}) == kLeastEchogenicityDb);  // beyond the grid there is air
-  CHECK(echogenicity_db(volume, {18, 4, 4}) == kLeastEchogenicityDb);
+  CHECK(echogenicity_db(volume, {0, 0, 0}) == kMinEchogenicity_db);  // beyond the grid there is air
+  CHECK(echogenicity_db(volume, {18, 4, 4}) == kMinEchogenicity_db);
   CHECK(echogenicity_db(volume, {19, 4, 4}) == Approx(air_db));  // so that the surface's echo is not darkened
   CHECK(echogenicity_db(volume, {4, 5, 3}) == Approx(air_db));
-  CHECK(echogenicity_db(volume, {3, 4, 4}) == kLeastEchogenicityDb);
+  CHECK(echogenicity_db(volume, {3, 4, 4}) == kMinEchogenicity_db);
 
   Volume<std::uint8_t> labels{ct.grid, std::vector<std::uint8_t>(ct.voxels.size(), 1)};
   CHECK(echogenicity_db(make_acoustic_volume(ct, labels, {"", "lung"}, shipped()), {10, 4, 4}) > -40);
@@ -151,7 +151,7 @@ TEST_CASE("without labels density and echogenicity are those of the CT without n
           step[axis] = 2;
           if (!ct.grid.contains(i - step) || !ct.grid.contains(i + step)) continue;
           const int before = quiet.at(i - step), behind = quiet.at(i + step);
-          if (std::min(before, behind) <= hu - kEdgeMarginHu && std::max(before, behind) >= hu + kEdgeMarginHu)
+          if (std::min(before, behind) <= hu - kEdgeMargin_hu && std::max(before, behind) >= hu + kEdgeMargin_hu)
             brightest = std::max({brightest, before, behind});
         }
         partial += brightest != hu;
@@ -241,10 +241,10 @@ TEST_CASE("tissue at the head's and the feet's end of a CT absorbs more and more
       }
       if (axis == 0 && !last) {
         CHECK(db.empty());  // that end lies in air
-        CHECK(echogenicity_db(volume, {0, 7, 6}) == kLeastEchogenicityDb);
+        CHECK(echogenicity_db(volume, {0, 7, 6}) == kMinEchogenicity_db);
       } else {
         REQUIRE(db.size() == 4);
-        CHECK(db[0] == kEndDb);
+        CHECK(db[0] == kEnd_db);
         CHECK(db[1] == Approx(-60 - 200.0 / 3).margin(0.01));
         CHECK(db[2] == Approx(-60 - 100.0 / 3).margin(0.01));
         CHECK(db[3] == 0);
@@ -255,9 +255,9 @@ TEST_CASE("tissue at the head's and the feet's end of a CT absorbs more and more
   const AcousticVolume thin = make_acoustic_volume(ct_along(2, {16, 14, 11}), {}, {}, shipped());
   CHECK(echogenicity_db(thin, {8, 7, 0}) == 0);
 
-  CHECK(end_absorption(kLeastEchogenicityDb) == 0);
+  CHECK(end_absorption(kMinEchogenicity_db) == 0);
   CHECK(end_absorption(-71) == Approx(0.6));
-  CHECK(end_absorption(kEndDb) > 40);  // more than lung
+  CHECK(end_absorption(kEnd_db) > 40);  // more than lung
 }
 
 TEST_CASE("a label's unknown tissue is refused with the name it resembles") {

@@ -56,9 +56,9 @@ TEST_CASE("a CT's noise is measured in its soft tissue, whatever lies beside it"
       });
       CHECK(ct_noise_hu(ct) == Approx(hu).epsilon(0.07));  // the mode of 27 values' deviations lies 2 to 4 % lower
     }
-  CHECK(ct_noise_hu(noisy({60, 60, 60}, 1, 3, [](double) { return 50; })) == kUsualNoiseHu);
-  CHECK(ct_noise_hu(noisy({60, 60, 60}, 1, 40, [](double) { return -100; })) == kUsualNoiseHu);  // no soft tissue
-  CHECK(ct_noise_hu(noisy({20, 20, 20}, 1, 40, [](double) { return 50; })) == kUsualNoiseHu);    // and too little
+  CHECK(ct_noise_hu(noisy({60, 60, 60}, 1, 3, [](double) { return 50; })) == kUsualNoise_hu);
+  CHECK(ct_noise_hu(noisy({60, 60, 60}, 1, 40, [](double) { return -100; })) == kUsualNoise_hu);  // no soft tissue
+  CHECK(ct_noise_hu(noisy({20, 20, 20}, 1, 40, [](double) { return 50; })) == kUsualNoise_hu);    // and too little
 }
 
 TEST_CASE("a seventh of the noise remains in even tissue, and its mean stays") {

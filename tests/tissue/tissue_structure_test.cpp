@@ -97,7 +97,7 @@ TEST_CASE("structure has zero mean and is bounded") {
     const Statistics s = statistics_of(block, block.structure());
     CHECK(std::abs(s.mean) < 0.05);
     CHECK(s.deviation > 0.2);
-    CHECK(s.most <= kMostStructureDb);
+    CHECK(s.most <= kMaxStructure_db);
   }
   for (const int hu : {-100, 55}) {  // no label, so that no label's mean is taken away
     INFO(hu << " HU");
@@ -105,7 +105,7 @@ TEST_CASE("structure has zero mean and is bounded") {
     const Statistics s = statistics_of(block, block.structure());
     CHECK(std::abs(s.mean) < 0.15);
     CHECK(s.deviation > 0.5);
-    CHECK(s.most <= kMostStructureDb);
+    CHECK(s.most <= kMaxStructure_db);
   }
 }
 

@@ -33,7 +33,7 @@ glm::dvec2 brightest(const Image<Rgba8>& image) {
 
 // The grid is rotated and mirrored, and its voxels are not cubes, so a view that ignores any of that puts the ball
 // elsewhere. Half a pixel: the ball's edge has steps of voxels.
-TEST_CASE("Axis slices show a marked place of the patient where they say it is") {
+TEST_CASE("axis slices show a marked place of the patient where they say it is") {
   const glm::dvec3 place(22, -31, 14);
   Scene scene(
       test::ct_of(test::skewed_grid(80), [&](const auto& p) { return glm::distance(p, place) < 8 ? 900.0 : 0.0; }), {},
@@ -56,7 +56,7 @@ TEST_CASE("Axis slices show a marked place of the patient where they say it is")
 }
 
 // One grey level: voxels hold whole HU, of which this window has 1.2 per level, and rounding to a level adds a half.
-TEST_CASE("Axis slices show the density in window and level at every pixel") {
+TEST_CASE("axis slices show the density in window and level at every pixel") {
   const auto hu_at = [](const glm::dvec3& p) { return 40 + 1.1 * p.x - 0.7 * p.y + 1.6 * p.z; };
   const Grid grid = test::skewed_grid(80);
   Scene scene(test::ct_of(grid, hu_at), {}, {});
@@ -84,7 +84,7 @@ TEST_CASE("Axis slices show the density in window and level at every pixel") {
   }
 }
 
-TEST_CASE("An axis slice outlines labels in their organs' colours, and only those that are asked for") {
+TEST_CASE("an axis slice outlines labels in their organs' colours, and only those that are asked for") {
   Volume<std::uint8_t> labels{test::skewed_grid(60), {}};
   view::OrganColours colours{};
   colours[9] = {{0.1f, 0.7f, 0.2f}, 0.5f};
@@ -111,7 +111,7 @@ TEST_CASE("An axis slice outlines labels in their organs' colours, and only thos
   CHECK(on_edge > 100);
 }
 
-TEST_CASE("An axis slice is drawn anew only when something changed") {
+TEST_CASE("an axis slice is drawn anew only when something changed") {
   Scene scene(test::ct_of(test::skewed_grid(40), [](const auto& p) { return p.x; }), {}, {});
   AxisSliceView view;
   AxisSlice slice = AxisSlice::fitting(SliceAxis::axial, scene.patient->grid(), {}, 60, 40);

@@ -27,13 +27,13 @@ EdgeLetters letters(SliceAxis axis) {
 
 }  // namespace
 
-TEST_CASE("Axis slices follow the radiological convention") {
+TEST_CASE("axis slices follow the radiological convention") {
   CHECK(letters(SliceAxis::axial) == EdgeLetters{"R", "L", "A", "P"});
   CHECK(letters(SliceAxis::coronal) == EdgeLetters{"R", "L", "S", "I"});
   CHECK(letters(SliceAxis::sagittal) == EdgeLetters{"A", "P", "S", "I"});
 }
 
-TEST_CASE("The pose of an axis slice is a rotation, and looks from the feet, the front and the patient's left") {
+TEST_CASE("the pose of an axis slice is a rotation, and looks from the feet, the front and the patient's left") {
   const glm::dvec3 into[] = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
   for (const SliceAxis axis : {SliceAxis::axial, SliceAxis::coronal, SliceAxis::sagittal}) {
     const glm::dmat3 r = AxisSlice::fitting(axis, plain_grid(), {}, 10, 10).patient_from_picture().rotation;
@@ -43,7 +43,7 @@ TEST_CASE("The pose of an axis slice is a rotation, and looks from the feet, the
   }
 }
 
-TEST_CASE("An axis slice shows the whole volume, in the middle and not stretched") {
+TEST_CASE("an axis slice shows the whole volume, in the middle and not stretched") {
   // 202 by 162 by 603 mm with the voxels' halves at the border; the middle is (0, 0, 0).
   const AxisSlice wide = AxisSlice::fitting(SliceAxis::axial, plain_grid(), {0, 0, 12}, 404, 1000);
   CHECK(wide.mm_per_pixel == Approx(0.5));
@@ -55,7 +55,7 @@ TEST_CASE("An axis slice shows the whole volume, in the middle and not stretched
   CHECK(head_right.y == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("Places of an axis slice and of the patient map to each other") {
+TEST_CASE("places of an axis slice and of the patient map to each other") {
   for (const SliceAxis axis : {SliceAxis::axial, SliceAxis::coronal, SliceAxis::sagittal}) {
     const AxisSlice slice = AxisSlice::fitting(axis, plain_grid(), {20, -30, 40}, 320, 240);
     const glm::dvec3 p = slice.patient_mm({17, 200});
@@ -64,14 +64,14 @@ TEST_CASE("Places of an axis slice and of the patient map to each other") {
   }
 }
 
-TEST_CASE("A slice beyond the volume is its outermost one") {
+TEST_CASE("a slice beyond the volume is its outermost one") {
   const AxisSlice above = AxisSlice::fitting(SliceAxis::axial, plain_grid(), {0, 0, 5000}, 100, 100);
   CHECK(above.middle.z == Approx(300));
   const AxisSlice behind = AxisSlice::fitting(SliceAxis::coronal, plain_grid(), {0, 5000, 0}, 100, 100);
   CHECK(behind.middle.y == Approx(80));
 }
 
-TEST_CASE("The step between slices is the voxel's extent along the nearest axis of the volume") {
+TEST_CASE("the step between slices is the voxel's extent along the nearest axis of the volume") {
   Grid grid = plain_grid();
   grid.spacing = {1, 2, 3};
   CHECK(slice_step_mm(SliceAxis::axial, grid) == 3);

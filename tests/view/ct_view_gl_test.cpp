@@ -33,7 +33,7 @@ VolumeStyle style_of(TransferFunction function) {
 
 /// A function that shows all above a value, opaque within a voxel.
 TransferFunction above(double hu, const glm::dvec3& colour = {0.9, 0.8, 0.7}) {
-  return {"", {{hu, colour, 0}, {hu + 1, colour, kMostOpacity}}};
+  return {"", {{hu, colour, 0}, {hu + 1, colour, kMaxOpacity}}};
 }
 
 /// Smooth blobs of tissue in air: sums of Gaussians.
@@ -101,7 +101,7 @@ Image<Rgba8> reference_of(const CtReference& reference, int width, int height) {
 
 // The shader stops at 0.996 of full opacity, which leaves out up to one level; rounding to 8 bits and single precision
 // take the rest.
-TEST_CASE("The CT is drawn as by the reference") {
+TEST_CASE("the CT is drawn as by the reference") {
   std::mt19937 random(11);
   Scene::need_context();
   VolumeView view;
@@ -121,7 +121,7 @@ TEST_CASE("The CT is drawn as by the reference") {
   }
 }
 
-TEST_CASE("Leaping over empty space changes no picture by more than a grey level") {
+TEST_CASE("leaping over empty space changes no picture by more than a grey level") {
   std::mt19937 random(12);
   Scene::need_context();
   VolumeView view;
@@ -147,7 +147,7 @@ TEST_CASE("Leaping over empty space changes no picture by more than a grey level
 
 // A ball of 1 mm voxels has an edge of up to a voxel on each side of the chord, which changes the opacity by up to
 // exp(-0.02 * chord) * 0.02 * 2 mm < 0.04.
-TEST_CASE("A homogeneous ball is as opaque as its chord is long") {
+TEST_CASE("a homogeneous ball is as opaque as its chord is long") {
   const double radius = 40, opacity_per_mm = 0.02;
   const auto ball = [&](const glm::dvec3& p) { return glm::length(p) < radius ? 500.0 : -1000.0; };
   Scene scene(test::ct_of(test::skewed_grid(50), ball), {}, {});
@@ -177,7 +177,7 @@ TEST_CASE("A homogeneous ball is as opaque as its chord is long") {
 
 // Density rises along the ray by 50 HU per mm, so that a function that shows 40 HU of it shows a sheet of 0.8 mm. The
 // samples are 2 mm apart.
-TEST_CASE("A thin layer of a ramp is exact when pre-integrated, and missed by many post-classified samples") {
+TEST_CASE("a thin layer of a ramp is exact when pre-integrated, and missed by many post-classified samples") {
   Grid grid;
   grid.size = {41, 41, 41};
   grid.spacing = glm::dvec3(1.0);
@@ -213,7 +213,7 @@ TEST_CASE("A thin layer of a ramp is exact when pre-integrated, and missed by ma
 }
 
 // A step is 0.5 mm. Pixels whose surface lies within half of it of the plane may show either.
-TEST_CASE("From any side, plane and surface hide each other as their depths say") {
+TEST_CASE("from any side, plane and surface hide each other as their depths say") {
   const double radius = 35;
   const auto ball = [&](const glm::dvec3& p) { return 500.0 * (radius - glm::length(p)); };
   const Volume<std::int16_t> ct =
@@ -267,7 +267,7 @@ TEST_CASE("From any side, plane and surface hide each other as their depths say"
   CHECK(surface_seen > 500);
 }
 
-TEST_CASE("The scanner's table is left out, and the body is not") {
+TEST_CASE("the scanner's table is left out, and the body is not") {
   const auto body_and_table = [](const glm::dvec3& p) {
     const bool body = glm::length(glm::dvec2(p))<30, table = p.y> 42 && p.y < 50 && std::abs(p.x) < 50;
     return body || table ? 60.0 : -1000.0;
@@ -290,7 +290,7 @@ TEST_CASE("The scanner's table is left out, and the body is not") {
   CHECK(lit(true, {0, 30, 0}));
 }
 
-TEST_CASE("The graphics card measures the same distances to what is visible as the processor") {
+TEST_CASE("the graphics card measures the same distances to what is visible as the processor") {
   const auto two_balls = [](const glm::dvec3& p) {
     return glm::distance(p, {25, -20, 30}) < 9 ? 700.0 : glm::length(p) < 12 ? 60.0 : -1000.0;
   };
@@ -310,7 +310,7 @@ TEST_CASE("The graphics card measures the same distances to what is visible as t
   }
 }
 
-TEST_CASE("An edit of the transfer function is drawn at once, and nothing is drawn while nothing changes") {
+TEST_CASE("an edit of the transfer function is drawn at once, and nothing is drawn while nothing changes") {
   Scene scene(
       test::ct_of(test::skewed_grid(40), [](const glm::dvec3& p) { return glm::length(p) < 30 ? 60.0 : -1000.0; }), {},
       {});

@@ -8,7 +8,7 @@
 
 using namespace insonate::view;
 
-TEST_CASE("A direction along one of the patient's axes has that axis' letter") {
+TEST_CASE("a direction along one of the patient's axes has that axis' letter") {
   CHECK(letters_of({1, 0, 0}) == "L");
   CHECK(letters_of({-3, 0, 0}) == "R");
   CHECK(letters_of({0, 1, 0}) == "P");
@@ -18,7 +18,7 @@ TEST_CASE("A direction along one of the patient's axes has that axis' letter") {
   CHECK(letters_of({0, 0, 0}).empty());
 }
 
-TEST_CASE("A direction more than 20 degrees off the nearest axis has the next axis' letter too") {
+TEST_CASE("a direction more than 20 degrees off the nearest axis has the next axis' letter too") {
   const auto between = [](double degrees) {
     const double angle = glm::radians(degrees);
     return letters_of({-std::cos(angle), -std::sin(angle), 0});
@@ -33,7 +33,7 @@ TEST_CASE("A direction more than 20 degrees off the nearest axis has the next ax
   CHECK(letters_of({0.5, 0.6, -0.7}) == "IP");
 }
 
-TEST_CASE("The letters of opposite edges are opposite") {
+TEST_CASE("the letters of opposite edges are opposite") {
   CHECK(edge_letters({1, 0, 0}, {0, 1, 0}) == EdgeLetters{"R", "L", "A", "P"});
   const EdgeLetters oblique = edge_letters(glm::normalize(glm::dvec3(1, 0, 1)), glm::normalize(glm::dvec3(0, 1, 0.2)));
   CHECK(oblique == EdgeLetters{"RI", "LS", "A", "P"});

@@ -27,7 +27,7 @@ bool near(const glm::dvec3& a, const glm::dvec3& b) {
 
 }  // namespace
 
-TEST_CASE("The planes of a swept volume begin in its middle, upright as the probe's picture is") {
+TEST_CASE("the planes of a swept volume begin in its middle, upright as the probe's picture is") {
   const Grid grid = askew();
   const MprPlanes planes(grid);
   CHECK(near(planes.centre(), grid.centre()));
@@ -41,7 +41,7 @@ TEST_CASE("The planes of a swept volume begin in its middle, upright as the prob
   CHECK(near(planes.frame(MprPlane::face, false).rotation[1], grid.direction[2]));
 }
 
-TEST_CASE("The planes' frames stay right-handed, perpendicular and upright however they are turned") {
+TEST_CASE("the planes' frames stay right-handed, perpendicular and upright however they are turned") {
   MprPlanes planes(askew());
   for (int n = 0; n < 500; ++n) planes.turn(kMprPlanes[std::size_t(n) % 3], 7.3 + n % 11, n % 2 == 0);
   for (const MprPlane plane : kMprPlanes) {
@@ -54,7 +54,7 @@ TEST_CASE("The planes' frames stay right-handed, perpendicular and upright howev
   }
 }
 
-TEST_CASE("Turning in one plane's picture turns the two others clockwise and leaves it") {
+TEST_CASE("turning in one plane's picture turns the two others clockwise and leaves it") {
   for (const bool marker_left : {false, true}) {
     MprPlanes planes(askew());
     const Pose before = planes.frame(MprPlane::imaging, marker_left);
@@ -72,7 +72,7 @@ TEST_CASE("Turning in one plane's picture turns the two others clockwise and lea
   }
 }
 
-TEST_CASE("The planes' point stays within the volume") {
+TEST_CASE("the planes' point stays within the volume") {
   const Grid grid = askew();
   MprPlanes planes(grid);
   planes.shift(MprPlane::imaging, 4);

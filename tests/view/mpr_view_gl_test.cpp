@@ -49,7 +49,7 @@ struct Swept {
 }  // namespace
 
 // One grey level: voxels hold whole ones, and so do pixels.
-TEST_CASE("A reformatted plane shows the volume's grey level at each pixel's place in the patient") {
+TEST_CASE("a reformatted plane shows the volume's grey level at each pixel's place in the patient") {
   test::Scene::need_context();
   const Swept swept(test::skewed_grid(60));
   const SweptTexture texture(swept.grey, swept.known);
@@ -99,7 +99,7 @@ TEST_CASE(
   CHECK(at_mm(test::read(view.render(texture, picture)), 0)[0] == 200);
 }
 
-TEST_CASE("A reformatted plane is drawn again only when it changes or is forgotten") {
+TEST_CASE("a reformatted plane is drawn again only when it changes or is forgotten") {
   test::Scene::need_context();
   const Swept swept(test::skewed_grid(20));
   const SweptTexture texture(swept.grey, swept.known);

@@ -33,7 +33,7 @@ Pose from_the_front(double turned_deg) {
 
 }  // namespace
 
-TEST_CASE("A sagittal plane crosses an axial slice in a line from edge to edge, brighter where the beam runs") {
+TEST_CASE("a sagittal plane crosses an axial slice in a line from edge to edge, brighter where the beam runs") {
   const PlaneTrace trace = trace_of_plane(slice_of(SliceAxis::axial), from_the_front(90), linear(), kDepth_mm);
   REQUIRE(trace.line);
   CHECK(trace.outline.empty());
@@ -46,7 +46,7 @@ TEST_CASE("A sagittal plane crosses an axial slice in a line from edge to edge, 
   CHECK(std::max(trace.in_fan[0][0].y, trace.in_fan[0][1].y) == Approx(300));
 }
 
-TEST_CASE("An axial plane crosses a coronal slice along the face's width") {
+TEST_CASE("an axial plane crosses a coronal slice along the face's width") {
   const PlaneTrace trace = trace_of_plane(slice_of(SliceAxis::coronal), from_the_front(0), linear(), kDepth_mm);
   REQUIRE(trace.in_fan.size() == 1);
   CHECK(trace.in_fan[0][0].y == Approx(200));
@@ -54,7 +54,7 @@ TEST_CASE("An axial plane crosses a coronal slice along the face's width") {
   CHECK(width_mm == Approx(linear().width_mm).epsilon(0.002));
 }
 
-TEST_CASE("A slice above a curved face crosses the fan twice, or not at all") {
+TEST_CASE("a slice above a curved face crosses the fan twice, or not at all") {
   // The arc of the face bulges towards the patient: a coronal slice just behind the arc's ends passes it twice.
   const Probe curved = *find_probe("curvilinear");
   AxisSlice slice = slice_of(SliceAxis::coronal);
@@ -68,7 +68,7 @@ TEST_CASE("A slice above a curved face crosses the fan twice, or not at all") {
   CHECK(trace_of_plane(slice, pose, curved, kDepth_mm).line);
 }
 
-TEST_CASE("A slice in the plane has the fan's outline in place of a line, and none apart from the plane") {
+TEST_CASE("a slice in the plane has the fan's outline in place of a line, and none apart from the plane") {
   AxisSlice slice = slice_of(SliceAxis::axial);
   const PlaneTrace within = trace_of_plane(slice, from_the_front(1), linear(), kDepth_mm);
   CHECK_FALSE(within.line);
@@ -81,7 +81,7 @@ TEST_CASE("A slice in the plane has the fan's outline in place of a line, and no
   CHECK(apart.outline.empty());
 }
 
-TEST_CASE("A plane that misses the picture leaves no line in it") {
+TEST_CASE("a plane that misses the picture leaves no line in it") {
   AxisSlice slice = slice_of(SliceAxis::axial);
   slice.middle.x = 500;
   CHECK_FALSE(trace_of_plane(slice, from_the_front(90), linear(), kDepth_mm).line);

@@ -45,7 +45,7 @@ double worst_difference(const Image<Rgba8>& image, const Expected& expected) {
 }  // namespace
 
 // One grey level: voxels hold whole HU, of which this window has 1.2 a level, and rounding to a level adds a half.
-TEST_CASE("A slice shows the density at each pixel's place in the patient") {
+TEST_CASE("a slice shows the density at each pixel's place in the patient") {
   Scene scene = ramp_scene();
   SliceView view;
   SliceStyle style;
@@ -59,14 +59,14 @@ TEST_CASE("A slice shows the density at each pixel's place in the patient") {
   CHECK(image.at(3, 3)[3] == 255);
 }
 
-TEST_CASE("Outside the patient's volume a slice is black") {
+TEST_CASE("outside the patient's volume a slice is black") {
   Scene scene = ramp_scene();
   scene.plane.patient_from_probe.translation = {0, 500, 0};
   SliceView view;
   CHECK(worst_difference(test::read(view.render(*scene.patient, scene.plane)), [](int, int) { return 0.0; }) == 0);
 }
 
-TEST_CASE("The blend mixes inside the fan and dims the CT outside it") {
+TEST_CASE("the blend mixes inside the fan and dims the CT outside it") {
   Scene scene = ramp_scene();
   SliceView view;
   SliceStyle style;
@@ -80,7 +80,7 @@ TEST_CASE("The blend mixes inside the fan and dims the CT outside it") {
   CHECK(worst_difference(image, expected) <= 1.0);
 }
 
-TEST_CASE("The blend's ultrasound has the colour that is asked for, and the CT stays grey") {
+TEST_CASE("the blend's ultrasound has the colour that is asked for, and the CT stays grey") {
   Scene scene = ramp_scene();
   SliceView view;
   SliceStyle style;
@@ -97,7 +97,7 @@ TEST_CASE("The blend's ultrasound has the colour that is asked for, and the CT s
   }
 }
 
-TEST_CASE("Outlines run along a label's edge inside it, in its organ's colour, and only where asked for") {
+TEST_CASE("outlines run along a label's edge inside it, in its organ's colour, and only where asked for") {
   Volume<std::uint8_t> labels{test::skewed_grid(80), {}};
   view::OrganColours colours{};
   colours[9] = {{0.1f, 0.7f, 0.2f}, 0.5f};
@@ -130,7 +130,7 @@ TEST_CASE("Outlines run along a label's edge inside it, in its organ's colour, a
   CHECK(on_edge > 100);
 }
 
-TEST_CASE("A slice is drawn anew only when something changed, and leaves the state of the context alone") {
+TEST_CASE("a slice is drawn anew only when something changed, and leaves the state of the context alone") {
   Scene scene = ramp_scene();
   SliceView view;
   SliceStyle style;

@@ -75,7 +75,7 @@ struct Balls {
     VolumeStyle style;
     style.cut = style.plane = style.probe = false;
     style.ct.emplace();
-    style.ct->function = {"", {{0, {0, 1, 0}, 0}, {1, {0, 1, 0}, kMostOpacity}}};
+    style.ct->function = {"", {{0, {0, 1, 0}, 0}, {1, {0, 1, 0}, kMaxOpacity}}};
     style.ct->structures = std::move(structures);
     style.ct->structure_opacity = 1;
     style.ct->body_only = false;
@@ -102,7 +102,7 @@ bool shows(const Rgba8& pixel, std::size_t channel) {
 
 // Labels have voxels of up to 2 mm, and smoothing rounds their steps within one of them: rays that pass a rim, or meet
 // two surfaces, within 2.5 mm of each other may show either.
-TEST_CASE("From any side, structures, tissue and the plane hide each other as their depths say") {
+TEST_CASE("from any side, structures, tissue and the plane hide each other as their depths say") {
   Balls balls;
   Scene& scene = *balls.scene;
   scene.set_picture(110, 110, 1.0, {255, 0, 255, 255});
@@ -156,7 +156,7 @@ TEST_CASE("From any side, structures, tissue and the plane hide each other as th
   CHECK(blue_left_out > 300);
 }
 
-TEST_CASE("Structures are drawn where a ray leaps, and as they are without leaps") {
+TEST_CASE("structures are drawn where a ray leaps, and as they are without leaps") {
   Balls balls;
   VolumeView view;
   std::mt19937 random(6);
@@ -184,7 +184,7 @@ TEST_CASE("Structures are drawn where a ray leaps, and as they are without leaps
   CHECK(different_from_background > 1000);
 }
 
-TEST_CASE("Each structure is switched by itself, and at once") {
+TEST_CASE("each structure is switched by itself, and at once") {
   Balls balls;
   VolumeView view;
   OrbitCamera camera;

@@ -41,7 +41,7 @@ OrbitCamera from_the_front() {
 
 }  // namespace
 
-TEST_CASE("A swept volume shows what is brighter than the threshold, where something was seen") {
+TEST_CASE("a swept volume shows what is brighter than the threshold, where something was seen") {
   test::Scene::need_context();
   const HalfABall swept;
   SweptView view(swept.grey, swept.known);
@@ -60,13 +60,13 @@ TEST_CASE("A swept volume shows what is brighter than the threshold, where somet
   const Image<Rgba8> tissue = drawn(20, 0.5);
   CHECK(lit(tissue, {35, 0, 0}));
   CHECK(!lit(tissue, {-35, 0, 0}));
-  const Image<Rgba8> nothing = drawn(kMostSweptThreshold, 0.5);
+  const Image<Rgba8> nothing = drawn(kMaxSweptThreshold, 0.5);
   CHECK(!lit(nothing, {14, 0, 0}));
   const Image<Rgba8> glass = drawn(100, 0.005);
   CHECK(!lit(glass, {14, 0, 0}));
 }
 
-TEST_CASE("A swept volume is cut at its plane, which shows its picture") {
+TEST_CASE("a swept volume is cut at its plane, which shows its picture") {
   test::Scene::need_context();
   const HalfABall swept;
   SweptView view(swept.grey, swept.known);
@@ -96,7 +96,7 @@ TEST_CASE("A swept volume is cut at its plane, which shows its picture") {
   CHECK(pixel(face, below)[1] < 80);
 }
 
-TEST_CASE("A swept volume is drawn again only when something changes") {
+TEST_CASE("a swept volume is drawn again only when something changes") {
   test::Scene::need_context();
   const HalfABall swept;
   SweptView view(swept.grey, swept.known);

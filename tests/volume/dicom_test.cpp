@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kSlices = 5;
-constexpr double kGapMm = 5;
+constexpr double kGap_mm = 5;
 const char* const kReport = "1.2.840.10008.5.1.4.1.1.88.11";
 const char* const kEnhancedCtImage = "1.2.840.10008.5.1.4.1.1.2.1";
 
 /// Slice `s` of a small series; its stored values tell voxel and slice apart.
 DicomSlice small_slice(int s) {
   DicomSlice slice;
-  slice.position = {-10, 20, 100 + s * kGapMm};
+  slice.position = {-10, 20, 100 + s * kGap_mm};
   for (int v = 0; v < slice.columns * slice.rows; ++v) slice.stored.push_back(std::uint16_t(1000 + s * 100 + v));
   return slice;
 }
@@ -81,7 +81,7 @@ TEST_CASE("a DICOM series is the same volume in every coding") {
     CHECK(source.format == "DICOM series");
     CHECK(source.other_series.empty());
     check_voxels(ct);
-    CHECK(glm::distance(ct.grid.spacing, glm::dvec3(3.5, 4, kGapMm)) < 1e-9);
+    CHECK(glm::distance(ct.grid.spacing, glm::dvec3(3.5, 4, kGap_mm)) < 1e-9);
     CHECK(glm::distance(ct.grid.origin, glm::dvec3(-10, 20, 100)) < 1e-9);
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("DICOM orientations are honoured, upright and oblique") {
   // Coronal: rows run to the left, columns to the feet, so the stack's normal runs to the back.
   write_series(folder.path / "coronal", [](int s, DicomSlice& slice) {
     slice.orientation = {1, 0, 0, 0, 0, -1};
-    slice.position = {-10, 20 + s * kGapMm, 100};
+    slice.position = {-10, 20 + s * kGap_mm, 100};
     return true;
   });
   const Volume<std::int16_t> coronal = read_ct(folder.path / "coronal");
@@ -116,12 +116,12 @@ TEST_CASE("DICOM orientations are honoured, upright and oblique") {
     // As scanners write them: 6 decimals.
     const auto rounded = [](double x) { return std::round(x * 1e6) / 1e6; };
     slice.orientation = {1, 0, 0, 0, rounded(std::cos(tilt)), rounded(std::sin(tilt))};
-    slice.position = {-10, 20 - s * kGapMm * std::sin(tilt), 100 + s * kGapMm * std::cos(tilt)};
+    slice.position = {-10, 20 - s * kGap_mm * std::sin(tilt), 100 + s * kGap_mm * std::cos(tilt)};
     return true;
   });
   const Volume<std::int16_t> oblique = read_ct(folder.path / "oblique");
   check_voxels(oblique);
-  CHECK(oblique.grid.spacing.z == Approx(kGapMm));
+  CHECK(oblique.grid.spacing.z == Approx(kGap_mm));
   CHECK(glm::distance(oblique.grid.direction[2], glm::dvec3(0, -std::sin(tilt), std::cos(tilt))) < 1e-5);
 }
 
@@ -167,12 +167,12 @@ TEST_CASE("a DICOM folder that gives no whole volume is refused with the reason"
       {"unevenly spaced", [](int s, DicomSlice& slice) { return slice.position[2] += s == 2 ? 1 : 0, true; }},
       {"two slices lie at the same place",
        [](int s, DicomSlice& slice) {
-         if (s == 2) slice.position[2] -= kGapMm, slice.instance = "1.2.3.9";
+         if (s == 2) slice.position[2] -= kGap_mm, slice.instance = "1.2.3.9";
          return true;
        }},
       {"the gantry was tilted: the stack leans by 15.0 degrees",
        [](int s, DicomSlice& slice) {
-         slice.position[1] += s * kGapMm * std::tan(glm::radians(15.0));
+         slice.position[1] += s * kGap_mm * std::tan(glm::radians(15.0));
          return true;
        }},
       {"the slices are shifted sideways by 50 mm between IM2 and IM0",

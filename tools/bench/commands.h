@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/free_form.h"
-#include "sim/alignment/registration.h"
+#include "sim/registration/free_form.h"
+#include "sim/registration/registration.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/tables/table.h"
 

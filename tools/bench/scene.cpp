@@ -60,11 +60,11 @@ std::vector<Configuration> configurations(const Request& request, const std::vec
                      "give LINES,SAMPLES,WIDTH,HEIGHT");
   std::vector<Configuration> given;
   for (std::size_t i = 0; i < numbers.size(); i += 4) {
-    constexpr int kMost[] = {4096, 8192, 8192, 8192};
+    constexpr int kMax[] = {4096, 8192, 8192, 8192};
     for (std::size_t j = 0; j < 4; ++j)
-      if (numbers[i + j] < 1 || numbers[i + j] > kMost[j])
+      if (numbers[i + j] < 1 || numbers[i + j] > kMax[j])
         throw InputError("--configuration", "number " + std::to_string(i + j + 1),
-                         std::to_string(numbers[i + j]) + " lies outside 1 to " + std::to_string(kMost[j]),
+                         std::to_string(numbers[i + j]) + " lies outside 1 to " + std::to_string(kMax[j]),
                          "give LINES,SAMPLES,WIDTH,HEIGHT");
     given.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/registration/density_volume.h"
+#include "sim/wein/density_volume.h"
 #include "tools/bench/shaders.h"
 
 namespace insonate::gl {

@@ -152,14 +152,14 @@ Pose read_pose(const std::string& file, const std::string& name) {
 }
 
 std::optional<std::string> why_not_image_matrix(const glm::dmat4& matrix) {
-  constexpr double kMostShear = 0.01, kLeastPixel_mm = 1e-3, kMostPixel_mm = 10;
+  constexpr double kMaxShear = 0.01, kMinPixel_mm = 1e-3, kMaxPixel_mm = 10;
   const glm::dvec3 column(matrix[0]), row(matrix[1]), origin(matrix[3]);
   for (const glm::dvec3& step : {column, row})
-    if (!(glm::length(step) >= kLeastPixel_mm && glm::length(step) <= kMostPixel_mm))
+    if (!(glm::length(step) >= kMinPixel_mm && glm::length(step) <= kMaxPixel_mm))
       return "a pixel is not from 0.001 mm to 10 mm large";
-  if (!(std::abs(glm::dot(column, row)) <= kMostShear * glm::length(column) * glm::length(row)))
+  if (!(std::abs(glm::dot(column, row)) <= kMaxShear * glm::length(column) * glm::length(row)))
     return "the image's rows and columns are not perpendicular";
-  if (!(glm::length(origin) <= kTrackerRangeMm) || glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
+  if (!(glm::length(origin) <= kTrackerRange_mm) || glm::transpose(matrix)[3] != glm::dvec4(0, 0, 0, 1))
     return "the last row is not 0 0 0 1, or the translation is too large";
   return std::nullopt;
 }

@@ -57,21 +57,21 @@ file(REMOVE_RECURSE "${CMAKE_BINARY_DIR}/rooms")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/folders.txt" "")
 file(WRITE "${CMAKE_BINARY_DIR}/rooms/uses.txt" "")
 
-# insonate_room(<name> SOURCES <file>... [ALONE <file>...] [USES <room or library>...] [PRIVATELY <library>...])
+# insonate_room(<name> SOURCES <file>... [NO_UNITY <file>...] [USES <room or library>...] [PRIVATELY <library>...])
 # makes the target insonate_<name> (alias insonate::<name>) of the current folder. USES are seen by the room's users
-# too, because its headers include them; libraries linked PRIVATELY are not visible to them. Files ALONE are never
+# too, because its headers include them; libraries linked PRIVATELY are not visible to them. Files NO_UNITY are never
 # compiled together with others: they have names of their own that others have too, such as the measures of a drawing.
 function(insonate_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;ALONE;USES;PRIVATELY" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;NO_UNITY;USES;PRIVATELY" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
   set(include_root "${CMAKE_BINARY_DIR}/rooms/${name}")
   cmake_path(GET folder PARENT_PATH parent)
   file(MAKE_DIRECTORY "${include_root}/${parent}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${include_root}/${folder}" SYMBOLIC)
 
-  if(ROOM_SOURCES OR ROOM_ALONE)
-    add_library(insonate_${name} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
-    set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  if(ROOM_SOURCES OR ROOM_NO_UNITY)
+    add_library(insonate_${name} STATIC ${ROOM_SOURCES} ${ROOM_NO_UNITY})
+    set_source_files_properties(${ROOM_NO_UNITY} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     target_include_directories(insonate_${name} PUBLIC "$<BUILD_INTERFACE:${include_root}>")
     target_link_libraries(insonate_${name} PUBLIC ${ROOM_USES}
                                            PRIVATE $<BUILD_INTERFACE:insonate_options> ${ROOM_PRIVATELY})

@@ -27,7 +27,7 @@ constexpr std::size_t kLargestManifest = 1u << 28;
 
 std::string number_of(std::uint32_t shard) {
   std::string digits = std::to_string(shard);
-  constexpr std::size_t kDigits = 5;  // enough for kMostShards
+  constexpr std::size_t kDigits = 5;  // enough for kMaxShards
   return std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
 }
 
@@ -92,7 +92,7 @@ bool has_number(const Json& json, const char* key, std::uint64_t most) {
 
 /// Returns whether a manifest has everything that is read of it.
 bool is_complete_manifest(const Json& json) {
-  if (json.at("format") != kManifestFormat || !has_number(json, "shard_count", kMostShards) ||
+  if (json.at("format") != kManifestFormat || !has_number(json, "shard_count", kMaxShards) ||
       !json.at("study").at("digest").is_string() || !json.at("program").at("version").is_string() ||
       !json.at("program").at("commit").is_string() || !json.at("tissue_table").at("digest").is_string() ||
       !json.at("patients").is_array() || !json.at("complete").is_boolean())

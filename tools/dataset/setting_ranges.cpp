@@ -132,7 +132,7 @@ Settings draw_settings(const Study& study, const Draws& draws, double frequency_
   }
   for (std::size_t i = 0; i < settings.tgc_db.size(); ++i) {
     const double shifted = settings.tgc_db[i] + draws.within(study.tgc_shift_db, kShift, std::uint32_t(i));
-    settings.tgc_db[i] = std::clamp(shifted, -kMostTimeGainDb, kMostTimeGainDb);
+    settings.tgc_db[i] = std::clamp(shifted, -kMaxTimeGain_db, kMaxTimeGain_db);
   }
   return settings;
 }

@@ -58,7 +58,7 @@ void use_library() {
 constexpr unsigned kDeflateLevel = 1;  // of 9: each further level saves 1 % and takes a third more time
 constexpr std::size_t kDigestSize = 16;
 // A shard is damaged if it claims more. Its images and texts are far smaller.
-constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 26, kMostBytes = std::uint64_t(1) << 30;
+constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 26, kMaxBytes = std::uint64_t(1) << 30;
 constexpr std::size_t kLongestText = 1 << 20;
 
 Id text_type(std::size_t size) {
@@ -268,7 +268,7 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     if (data < 0 || H5Sget_simple_extent_ndims(space) != 3 || H5Sget_simple_extent_dims(space, size, nullptr) < 0)
       return std::string("it has no data '") + name + "'";
     images = size[0];
-    if (images > kMostShardImages || size[1] > kMostPixels || size[2] > kMostPixels / std::max<hsize_t>(size[1], 1))
+    if (images > kMaxShardImages || size[1] > kMaxPixels || size[2] > kMaxPixels / std::max<hsize_t>(size[1], 1))
       return std::string("the size of its data '") + name + "' is damaged";
     const hsize_t row[] = {1, size[1], size[2]};
     const Id in_memory(H5Screate_simple(3, row, nullptr), H5Sclose);
@@ -287,7 +287,7 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     if (data < 0 || values < 0) return std::string("it has no data '") + name + "'";
     const std::size_t of_value = H5Tget_size(type);
     if (H5Tis_variable_str(type) != 0 || H5Tdetect_class(type, H5T_VLEN) != 0 || of_value == 0 ||
-        std::uint64_t(values) > kMostBytes / of_value)
+        std::uint64_t(values) > kMaxBytes / of_value)
       return std::string("the size of its data '") + name + "' is damaged";
     std::vector<char> bytes(std::size_t(values) * of_value);
     if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)

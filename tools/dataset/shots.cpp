@@ -135,7 +135,7 @@ Shot ShotMaker::at(std::uint32_t index) const {
 
   Shot shot;
   shot.index = index;
-  for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (std::uint32_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
     Pose start;
     const std::vector<std::size_t>* probes = &way.probes;
     if (poses.kind == PoseKind::skin) {
@@ -174,7 +174,7 @@ Shot ShotMaker::at(std::uint32_t index) const {
   throw input_error(
       study_->file.string(),
       {{poses.place,
-        "of " + std::to_string(kMostAttempts) + " poses that were drawn for image " + std::to_string(index) +
+        "of " + std::to_string(kMaxAttempts) + " poses that were drawn for image " + std::to_string(index) +
             ", none has the probe on the skin of the patient " + in_quotes(patient_->name),
         "take poses of this patient, and smaller ranges around them"}});
 }

@@ -33,9 +33,9 @@ public:
 
   /// Draws an image. The result depends on the study, the patient and the index alone. The probe touches the skin
   /// (SkinContact), and does not lie deep within the body: a pose that does not is drawn again. Throws InputError if
-  /// kMostAttempts draws find none.
+  /// kMaxAttempts draws find none.
   Shot at(std::uint32_t index) const;
-  static constexpr std::uint32_t kMostAttempts = 1000;
+  static constexpr std::uint32_t kMaxAttempts = 1000;
 
 private:
   bool is_within_body(const Pose& patient_from_probe) const;

@@ -21,9 +21,9 @@ namespace insonate {
 /// only with the same version.
 inline constexpr int kStudyFormat = 1;
 
-inline constexpr std::uint32_t kMostImages = 100'000'000;
-inline constexpr std::uint32_t kMostShards = 100'000;
-inline constexpr std::uint32_t kMostShardImages = 100'000;
+inline constexpr std::uint32_t kMaxImages = 100'000'000;
+inline constexpr std::uint32_t kMaxShards = 100'000;
+inline constexpr std::uint32_t kMaxShardImages = 100'000;
 
 /// A range of numbers at equal steps from its least one: a knob that clicks. step 0: any number.
 struct SteppedRange {

@@ -13,7 +13,7 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestFile = 1u << 20;
-constexpr std::size_t kMostTables = 1000;
+constexpr std::size_t kMaxTables = 1000;
 constexpr NumberRange kWeight{1e-6, 1e6};
 
 /// Reads one number, or the least and the most in square brackets.
@@ -158,24 +158,24 @@ Study read_study(const std::filesystem::path& file) {
   root.whole_number("format", kStudyFormat, kStudyFormat);
   study.name = root.text("name");
   study.seed = std::uint32_t(root.whole_number("seed", 0, std::numeric_limits<std::uint32_t>::max()));
-  study.images = std::uint32_t(root.whole_number("images", 1, kMostImages));
-  study.shard_images = std::uint32_t(root.whole_number("shard_images", 1, kMostShardImages, study.shard_images));
-  if (study.shards() > kMostShards)
+  study.images = std::uint32_t(root.whole_number("images", 1, kMaxImages));
+  study.shard_images = std::uint32_t(root.whole_number("shard_images", 1, kMaxShardImages, study.shard_images));
+  if (study.shards() > kMaxShards)
     root.report("shard_images", "there would be " + std::to_string(study.shards()) + " shards, above 100000",
                 "take more images per shard");
 
   if (root.has("settings")) read_setting_ranges(root.table("settings"), study);
 
   std::set<std::string> case_names, names_of_probes;
-  for (const TomlTable& table : root.tables("case", kMostTables)) {
+  for (const TomlTable& table : root.tables("case", kMaxTables)) {
     study.cases.push_back(read_case_of_study(table, folder));
     check_unique(table, table.has("name") ? "name" : "case", study.cases.back().name, case_names);
   }
-  for (const TomlTable& table : root.tables("probe", kMostTables)) {
+  for (const TomlTable& table : root.tables("probe", kMaxTables)) {
     study.probes.push_back(read_probe_of_study(table));
     check_unique(table, "name", study.probes.back().probe.name, names_of_probes);
   }
-  const std::vector<TomlTable> pose_tables = root.tables("poses", kMostTables);
+  const std::vector<TomlTable> pose_tables = root.tables("poses", kMaxTables);
   for (const TomlTable& table : pose_tables) {
     study.poses.push_back(read_poses_of_study(table, folder));
     const StudyPoses& poses = study.poses.back();

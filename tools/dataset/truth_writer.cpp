@@ -19,7 +19,7 @@ TruthWriter::~TruthWriter() {
 void TruthWriter::put(Shot&& shot, Image<std::uint8_t>&& grey) {
   std::unique_lock lock(mutex_);
   const std::size_t bytes = grey.pixels.size();
-  changed_.wait(lock, [&] { return waiting_.empty() || waiting_bytes_ + bytes <= kMostWaiting || failure_; });
+  changed_.wait(lock, [&] { return waiting_.empty() || waiting_bytes_ + bytes <= kMaxWaiting || failure_; });
   rethrow();
   waiting_bytes_ += bytes;
   waiting_.push_back({std::move(shot), std::move(grey)});

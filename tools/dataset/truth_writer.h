@@ -18,7 +18,7 @@ class TruthWriter {
 public:
   /// Most bytes of pictures that wait: 128 pictures of 512 x 512. Drawing waits only if this thread is behind by as
   /// many, and always lets one wait.
-  static constexpr std::size_t kMostWaiting = std::size_t(1) << 25;
+  static constexpr std::size_t kMaxWaiting = std::size_t(1) << 25;
 
   /// Keeps references to both. The thread alone uses them until finish() returns.
   /// @param first_image  of the shard

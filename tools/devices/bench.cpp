@@ -19,7 +19,7 @@
 namespace insonate::devices {
 namespace {
 
-constexpr double kFrameHz = 60;
+constexpr double kFrame_hz = 60;
 
 /// Prints the figures while they are measured, and collects them as CSV.
 class Figures {
@@ -98,8 +98,8 @@ std::unique_ptr<LiveTracker> paced_tracker(double rate_hz) {
 template <typename Frame>
 void run_frames(double seconds, const Frame& frame) {
   const double start_s = steady_now_s();
-  for (long i = 0; i < seconds * kFrameHz; ++i) {
-    const double wait_s = start_s + double(i) / kFrameHz - steady_now_s();
+  for (long i = 0; i < seconds * kFrame_hz; ++i) {
+    const double wait_s = start_s + double(i) / kFrame_hz - steady_now_s();
     if (wait_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
     frame(steady_now_s());
   }

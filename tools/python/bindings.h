@@ -22,7 +22,7 @@ using CasePtr = std::shared_ptr<const HeldCase>;
 void bind_probes(pybind11::module_& module);
 void bind_cases(pybind11::module_& module);
 void bind_simulator(pybind11::module_& module);
-void bind_registration(pybind11::module_& module);
+void bind_similarity(pybind11::module_& module);
 
 /// Returns the probe that a name or a Probe stands for. Throws InputError for an unknown name.
 Probe probe_of(const pybind11::object& given);

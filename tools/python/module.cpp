@@ -46,5 +46,5 @@ PYBIND11_MODULE(_insonate, module) {
   bind_probes(module);
   bind_cases(module);
   bind_simulator(module);
-  bind_registration(module);
+  bind_similarity(module);
 }

@@ -11,10 +11,10 @@
 namespace insonate {
 namespace {
 
-constexpr int kWidth = 384, kHeight = 288;         // pixels
-constexpr double kDarkHu = -150, kBrightHu = 250;  // of the CT's slices
-constexpr Rgba8 kNothing{20, 24, 30, 255};         // outside the fan
-constexpr double kOrange[] = {1.0, 0.55, 0.1};     // of the ultrasound; blue is the rest to white
+constexpr int kWidth = 384, kHeight = 288;           // pixels
+constexpr double kDark_hu = -150, kBright_hu = 250;  // of the CT's slices
+constexpr Rgba8 kNothing{20, 24, 30, 255};           // outside the fan
+constexpr double kOrange[] = {1.0, 0.55, 0.1};       // of the ultrasound; blue is the rest to white
 
 std::uint8_t level(double value) {
   return std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));
@@ -44,7 +44,7 @@ Image<double> ct_slice(const Volume<std::int16_t>& ct, const glm::dmat4& ct_from
       const glm::dvec3 in_sweep = deformation.at(sweep_from_probe.point(glm::dvec3(geometry.plane_mm(x, y), 0)));
       const glm::dvec3 at(ct_from_sweep * glm::dvec4(in_sweep, 1));
       const double hu = sample_trilinear(ct, ct.grid.index_from_patient(at));
-      result.at(x, y) = std::clamp((hu - kDarkHu) / (kBrightHu - kDarkHu), 0.0, 1.0);
+      result.at(x, y) = std::clamp((hu - kDark_hu) / (kBright_hu - kDark_hu), 0.0, 1.0);
     }
   return result;
 }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/free_form_field.h"
-#include "sim/alignment/tracked_sweep.h"
 #include "sim/core/grid.h"
+#include "sim/registration/free_form_field.h"
+#include "sim/registration/tracked_sweep.h"
 
 namespace insonate {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "sim/alignment/free_form.h"
 #include "sim/core/grid.h"
+#include "sim/registration/free_form.h"
 
 namespace insonate {
 
@@ -24,7 +24,7 @@ DeformationGrids deformation_grids(const FreeFormField& field, const glm::dmat4&
 void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid,
                          const std::function<glm::dvec3(const glm::dvec3&)>& map);
 
-/// Returns what came of a deformation in one sentence: "Deformation: ..." or "No deformation: ...".
+/// Returns how a deformation ended, in one sentence: "Deformation: ..." or "No deformation: ...".
 std::string sentence_about(const FreeFormRegistration& found);
 
 }  // namespace insonate

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/free_form.h"
-#include "sim/alignment/registration.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/files/new_folder.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
-#include "sim/registration/wein_settings_file.h"
+#include "sim/registration/free_form.h"
+#include "sim/registration/registration.h"
 #include "sim/volume/ct_reader.h"
+#include "sim/wein/wein_settings_file.h"
 #include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"
 #include "tools/cli/subject.h"
@@ -51,14 +51,14 @@ std::string command_line(int argc, char** argv) {
 
 // Refuses a sweep to which no deformation can be fitted.
 void check_deformable(const std::string& file, const TrackedSweep& sweep, double spacing_mm) {
-  if (sweep.images.size() < kLeastFreeFormImages)
+  if (sweep.images.size() < kMinFreeFormImages)
     throw InputError(
-        file, "", formatted("a deformation needs %zu images; there are %zu", kLeastFreeFormImages, sweep.images.size()),
+        file, "", formatted("a deformation needs %zu images; there are %zu", kMinFreeFormImages, sweep.images.size()),
         "record a longer sweep, or leave out --free-form");
   const std::size_t points = field_over(target_points(sweep), spacing_mm).control_mm.size();
-  if (points > kMostControlPoints)
+  if (points > kMaxControlPoints)
     throw InputError("--free-form", "",
-                     formatted("the sweep would need %zu control points; %zu are the most", points, kMostControlPoints),
+                     formatted("the sweep would need %zu control points; %zu are the most", points, kMaxControlPoints),
                      "place them farther apart");
 }
 
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
       ->default_str("8");
   arguments
       .add_option("--settings", settings_file,
-                  "Read model W's settings from this file (TOML): fields of sim/registration/wein_settings.h")
+                  "Read model W's settings from this file (TOML): fields of sim/wein/wein_settings.h")
       ->type_name("FILE");
   arguments
       .add_option(

@@ -63,7 +63,7 @@ ReadSweep read_dicom_sweep(const SweepInput& given) {
 
   // So many that both the sweep's images and those that are looked at lie evenly.
   const auto slices = std::size_t(input.slices);
-  const std::size_t kept = std::min(clip.frames, slices * ((kMostSearchedForFan + slices - 1) / slices));
+  const std::size_t kept = std::min(clip.frames, slices * ((kMaxSearchedForFan + slices - 1) / slices));
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < kept; ++i) numbers.push_back((2 * i + 1) * clip.frames / (2 * kept));
   std::vector<Image<std::uint8_t>> images = read_dicom_frames(input.file, numbers);

@@ -25,7 +25,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kMostOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
+constexpr double kMaxOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
 constexpr std::size_t kLargestProbeFile = 1 << 20;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -75,18 +75,18 @@ void for_each_known(const TrackedSweep& sweep, AnyImage& image, Visit&& visit) {
 /// Returns whether a point of the patient lies where the CT cuts the body: near an end at which there is tissue, or
 /// beyond.
 bool is_at_end(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
-  constexpr int kTissueHu = -300;
-  constexpr double kStartError_mm = 10, kMostShare = 1.0 / 12;  // of a short CT's length
-  constexpr double kLeastLength_mm = 80;                        // below that, too little would be left
+  constexpr int kTissue_hu = -300;
+  constexpr double kStartError_mm = 10, kMaxShare = 1.0 / 12;  // of a short CT's length
+  constexpr double kMinLength_mm = 80;                         // below that, too little would be left
   const int axis = feet_head_axis(ct.grid);
   const double length_mm = ct.grid.spacing[axis] * ct.grid.size[axis];
-  if (length_mm < kLeastLength_mm ||
-      to_end_mm(ct.grid, point) >= std::min(kEnd_mm + kStartError_mm, kMostShare * length_mm))
+  if (length_mm < kMinLength_mm ||
+      to_end_mm(ct.grid, point) >= std::min(kEnd_mm + kStartError_mm, kMaxShare * length_mm))
     return false;
   glm::ivec3 end =
       glm::clamp(glm::ivec3(glm::round(ct.grid.index_from_patient(point))), glm::ivec3(0), ct.grid.size - 1);
   end[axis] = 2 * end[axis] < ct.grid.size[axis] ? 0 : ct.grid.size[axis] - 1;
-  return ct.at(end) > kTissueHu;
+  return ct.at(end) > kTissue_hu;
 }
 
 /// Makes other pixels unknown, and drops images of which nothing is left.
@@ -159,7 +159,7 @@ ImagePlacement placement_of(const glm::dmat4& probe_from_pixel, const SweepInput
     face = *input.face_pixel;
   } else {
     const glm::dvec3 origin = glm::transpose(axes) * -corner;
-    if (std::abs(origin.z) > kMostOffPlane_mm)
+    if (std::abs(origin.z) > kMaxOffPlane_mm)
       throw InputError(input.file, "",
                        "the origin of its probe's frame does not lie in the images, so it is not known where the "
                        "probe's face is",
@@ -205,7 +205,7 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
 FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& frames, SweepInput& input) {
   EchoSeen seen;
   const glm::dvec2 mm = pixel_size(frames.front().probe_from_pixel);
-  const std::size_t kept = std::min(frames.size(), kMostSearchedForFan);
+  const std::size_t kept = std::min(frames.size(), kMaxSearchedForFan);
   for (std::size_t i = 0; i < kept; ++i) {
     const Frame& frame = frames[(2 * i + 1) * frames.size() / (2 * kept)];
     if (glm::distance(pixel_size(frame.probe_from_pixel), mm) > kSamePixel * glm::length(mm))

@@ -11,18 +11,18 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/echo_seen.h"
-#include "sim/alignment/find_fan.h"
-#include "sim/alignment/tracked_sweep.h"
 #include "sim/core/grid.h"
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 #include "sim/probe/probe.h"
+#include "sim/registration/echo_seen.h"
+#include "sim/registration/find_fan.h"
+#include "sim/registration/tracked_sweep.h"
 
 namespace insonate {
 
 /// As many images of a recording are searched for a fan; if it has more, they are evenly spread over it.
-inline constexpr std::size_t kMostSearchedForFan = 24;
+inline constexpr std::size_t kMaxSearchedForFan = 24;
 
 /// How a recording of tracked ultrasound is read.
 struct SweepInput {
@@ -86,8 +86,8 @@ void check_shows_fan(const std::string& file, const TrackedSweep& sweep, double 
 void keep_labelled(TrackedSweep& sweep, const Volume<std::uint8_t>& labels, const std::string& file);
 
 /// Leaves out the pixels that lie where the CT cuts the body at head or feet at the start, or beyond: there is nothing
-/// to compare them with, and a recording of Insonate is dark there, which would be taken for an edge of the CT. Images
-/// of which nothing is left are left out. Returns the share of the pixels that was left out.
+/// to compare them with. Insonate's own recordings are black there, and the search would match that edge to the CT's
+/// end. Images of which nothing is left are left out. Returns the share of the pixels that was left out.
 double leave_out_ends(TrackedSweep& sweep, const Volume<std::int16_t>& ct, const glm::dmat4& ct_from_sweep);
 
 /// Reads a probe from a TOML file: kind ("curvilinear", "linear" or "phased"), radius_mm and field_of_view_deg or

@@ -23,9 +23,9 @@
 namespace insonate {
 namespace {
 
-constexpr int kSamples = 3;           // per pixel along both of its sides
-constexpr double kLeastShown = 0.15;  // of the slices: a swept volume fills its box in part
-constexpr double kLeastAcross = 0.1;  // by which an axis has to lie across the beam to give the slices' rows
+constexpr int kSamples = 3;         // per pixel along both of its sides
+constexpr double kMinShown = 0.15;  // of the slices: a swept volume fills its box in part
+constexpr double kMinAcross = 0.1;  // by which an axis has to lie across the beam to give the slices' rows
 
 PlaneBox box_of(const Grid& grid, const glm::dvec3& beam) {
   // Rows run along the longest axis of the volume that lies across the beam.
@@ -34,7 +34,7 @@ PlaneBox box_of(const Grid& grid, const glm::dvec3& beam) {
   for (int axis = 0; axis < 3; ++axis) {
     const glm::dvec3 across = grid.direction[axis] - glm::dot(grid.direction[axis], beam) * beam;
     const double length = glm::length(across) * grid.size[axis] * grid.spacing[axis];
-    if (glm::length(across) < kLeastAcross || length <= longest) continue;
+    if (glm::length(across) < kMinAcross || length <= longest) continue;
     longest = length;
     along = glm::normalize(across);
   }
@@ -169,7 +169,7 @@ ReadSweep read_volume_sweep(const std::string& file, const glm::dvec3& beam, con
   if (sweep.images.size() < 2)
     throw InputError(file, "", "fewer than two of its slices have a voxel that is known",
                      "give a volume of grey levels above 0");
-  check_shows_fan(file, sweep, kLeastShown);
+  check_shows_fan(file, sweep, kMinShown);
   return read;
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/free_form.h"
-#include "sim/alignment/registration.h"
 #include "sim/core/grid.h"
+#include "sim/registration/free_form.h"
+#include "sim/registration/registration.h"
 #include "tools/register/comparison_pictures.h"
 #include "tools/register/read_sweep.h"
 
@@ -36,7 +36,7 @@ std::string verdict(const SweepRegistration& found);
 /// Returns a transform as ITK reads it (.tfm): an affine transform of LPS points, mm, with the verdict as a comment.
 std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
 
-/// Returns the verdict, and what came of the deformation if one was asked for.
+/// Returns the verdict, and how the deformation ended if one was asked for.
 std::string verdict(const RegistrationReport& report);
 
 /// Returns the transforms in both directions, the verdict, the uncertainty, the settings and the similarities as JSON;

@@ -20,10 +20,10 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
-constexpr double kFarthest_mm = 1e5;    // of a landmark from the origin; a tracker's range is far smaller
-constexpr double kLeastOffLine_mm = 5;  // of the landmarks
-constexpr double kBodyHu = -300;
-constexpr double kLeastShare = 0.1;  // of what the sweep shows that lies in the CT, and in the body
+constexpr double kFarthest_mm = 1e5;  // of a landmark from the origin; a tracker's range is far smaller
+constexpr double kMinOffLine_mm = 5;  // of the landmarks
+constexpr double kBody_hu = -300;
+constexpr double kMinShare = 0.1;  // of what the sweep shows that lies in the CT, and in the body
 
 /// Returns how far the point that lies farthest from a line through the first point and the one farthest from it lies
 /// off that line. Points are columns.
@@ -69,7 +69,7 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
                      "write six per landmark, of three or more landmarks");
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(numbers.data(), 6, Eigen::Index(pairs));
   const Eigen::MatrixXd in_sweep = all.topRows(3), in_ct = all.bottomRows(3);
-  if (off_line_mm(in_sweep) < kLeastOffLine_mm || off_line_mm(in_ct) < kLeastOffLine_mm)
+  if (off_line_mm(in_sweep) < kMinOffLine_mm || off_line_mm(in_ct) < kMinOffLine_mm)
     throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
                      "add one that lies beside it");
   const Eigen::Matrix4d fit = Eigen::umeyama(in_sweep, in_ct, false);
@@ -88,13 +88,13 @@ void check_start(const std::string& ct_file, const Volume<std::int16_t>& ct, con
     ++points;
     if (!ct.grid.contains(glm::ivec3(glm::round(index)))) continue;
     ++in_ct;
-    in_body += sample_trilinear(ct, index) > kBodyHu;
+    in_body += sample_trilinear(ct, index) > kBody_hu;
   }
-  if (in_ct < kLeastShare * points)
+  if (in_ct < kMinShare * points)
     throw InputError(name, "",
                      "at the start only " + percent(in_ct / points) + " of what the sweep shows lies in the CT",
                      "give a nearer --start or --landmarks, or a CT of the region that was scanned");
-  if (in_body < kLeastShare * points)
+  if (in_body < kMinShare * points)
     throw InputError(name, "",
                      "at the start the sweep looks away from the body: only " + percent(in_body / points) +
                          " of what it shows is tissue",

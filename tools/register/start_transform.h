@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "sim/alignment/tracked_sweep.h"
 #include "sim/core/grid.h"
+#include "sim/registration/tracked_sweep.h"
 
 namespace insonate {
 

@@ -11,13 +11,13 @@
 namespace insonate {
 namespace {
 
-constexpr double kLeastOpening = glm::radians(3.0), kMostSlope = 3.7;  // of a side: 75 degrees
+constexpr double kMinOpening = glm::radians(3.0), kMaxSlope = 3.7;  // of a side: 75 degrees
 // Of the way from the wedge's top to its widest row: the sides are fitted there.
 constexpr double kTop = 0.1, kDeep = 0.95;
-constexpr double kLeastSides = 1.0 / 3;  // of the rows that lie above the widest; sides that are shorter say little
-constexpr int kLeastRows = 8;
-constexpr double kMostOff = 1;  // voxels that a side may lie off its line, root mean square: sides are steps of voxels
-constexpr int kFewVoxels = 3;   // that may be known beside the wedge, such as specks
+constexpr double kMinSides = 1.0 / 3;  // of the rows that lie above the widest; sides that are shorter say little
+constexpr int kMinRows = 8;
+constexpr double kMaxOff = 1;  // voxels that a side may lie off its line, root mean square: sides are steps of voxels
+constexpr int kFewVoxels = 3;  // that may be known beside the wedge, such as specks
 
 /// z = at + slope y.
 struct Side {
@@ -26,7 +26,7 @@ struct Side {
 
 /// Returns the line through points (y, z) by least squares, nothing where they do not lie on one.
 std::optional<Side> side_of(const std::vector<glm::dvec2>& points, double voxel_mm) {
-  if (int(points.size()) < kLeastRows) return std::nullopt;
+  if (int(points.size()) < kMinRows) return std::nullopt;
   glm::dvec2 mean(0.0);
   for (const glm::dvec2& point : points) mean += point / double(points.size());
   double yy = 0, yz = 0;
@@ -37,7 +37,7 @@ std::optional<Side> side_of(const std::vector<glm::dvec2>& points, double voxel_
   const Side side{mean.y - yz / yy * mean.x, yz / yy};
   double squares = 0;
   for (const glm::dvec2& point : points) squares += std::pow(point.y - side.at - side.slope * point.x, 2);
-  if (!(std::sqrt(squares / double(points.size())) < kMostOff * voxel_mm) || std::abs(side.slope) > kMostSlope)
+  if (!(std::sqrt(squares / double(points.size())) < kMaxOff * voxel_mm) || std::abs(side.slope) > kMaxSlope)
     return std::nullopt;
   return side;
 }
@@ -84,7 +84,7 @@ SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
   const auto top = std::ranges::find_if(extents, filled);
   const auto widest =
       std::ranges::max_element(extents, {}, [](const glm::ivec2& extent) { return extent.y - extent.x; });
-  if (top == extents.end() || double(widest - top) < kLeastSides * double(std::ranges::count_if(extents, filled)))
+  if (top == extents.end() || double(widest - top) < kMinSides * double(std::ranges::count_if(extents, filled)))
     return planes;
   std::vector<glm::dvec2> low, high;
   for (auto extent = top + std::ptrdiff_t(kTop * double(widest - top));
@@ -97,7 +97,7 @@ SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
   const std::optional<Side> lower = side_of(low, voxel_mm), upper = side_of(high, voxel_mm);
   if (!lower || !upper) return planes;
   const double from = std::atan(lower->slope), to = std::atan(upper->slope);
-  if (to - from < kLeastOpening) return planes;
+  if (to - from < kMinOpening) return planes;
   planes.tilted = true;
   planes.first = from;
   planes.last = to;
@@ -109,7 +109,7 @@ SweptPlanes find_swept_planes(const Grid& grid, const PlaneBox& box,
 Image<std::uint8_t> known_in_planes(const Grid& grid, const PlaneBox& box, const SweptPlanes& planes, double mm,
                                     const std::function<bool(const glm::ivec3&)>& known) {
   // A single plane may reach up to a voxel further than the fan at any of its edges.
-  constexpr int kPlanes = 48, kLeastPlanes = 5;
+  constexpr int kPlanes = 48, kMinPlanes = 5;
   const glm::dvec2 depths = planes.depths(box);
   Image<std::uint8_t> seen(std::max(1, int((box.high.x - box.low.x) / mm) + 1),
                            std::max(1, int((depths.y - depths.x) / mm) + 1));
@@ -122,7 +122,7 @@ Image<std::uint8_t> known_in_planes(const Grid& grid, const PlaneBox& box, const
         seen.at(x, y) += grid.contains(nearest) && known(nearest);
       }
   }
-  for (std::uint8_t& pixel : seen.pixels) pixel = pixel >= kLeastPlanes;
+  for (std::uint8_t& pixel : seen.pixels) pixel = pixel >= kMinPlanes;
   return seen;
 }
 

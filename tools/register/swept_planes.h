@@ -20,7 +20,7 @@ struct PlaneBox {
   glm::dvec3 low, high;  ///< along them, mm
 };
 
-/// How the planes of a sweep lie that filled a volume: tilted about a line across the beam, as a 3D probe or a tilting
+/// The planes in which a swept volume was acquired: tilted about a line across the beam, as a 3D probe or a tilting
 /// hand leaves them, or parallel.
 struct SweptPlanes {
   double first = 0, last = 0;  ///< between the outermost planes: angles from the beam, rad; where parallel, mm across

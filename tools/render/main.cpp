@@ -20,8 +20,8 @@
 #include "sim/model/quality.h"
 #include "sim/model/settings_file.h"
 #include "sim/reference/reference.h"
-#include "sim/registration/wein_settings_file.h"
 #include "sim/volume/ct_reader.h"
+#include "sim/wein/wein_settings_file.h"
 #include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"
 #include "tools/cli/subject.h"
@@ -39,9 +39,9 @@ constexpr double kLinearPivot_mm = 30;  // its lines do not meet; the pivot of a
 
 /// Reads the poses of a probe that was swept by hand.
 std::vector<Pose> read_sweep(const std::string& file) {
-  constexpr std::size_t kMostPlanes = 2048;
+  constexpr std::size_t kMaxPlanes = 2048;
   std::vector<Pose> poses = read_poses(file);
-  if (poses.size() < 2 || poses.size() > kMostPlanes)
+  if (poses.size() < 2 || poses.size() > kMaxPlanes)
     throw InputError(file, "", "it holds " + std::to_string(poses.size()) + " of the 2 to 2048 poses of a sweep",
                      "write a matrix patient_from_probe for each plane, in the order of the sweep");
   return poses;
@@ -86,7 +86,7 @@ void write_reconstructed(const std::string& file, const std::string& known_file,
   if (!made.remark.empty()) std::printf("%s\n", made.remark.c_str());
 }
 
-constexpr double kLeastDepth_mm = 10, kMostDepth_mm = 400;
+constexpr double kMinDepth_mm = 10, kMaxDepth_mm = 400;
 
 /// Throws the errors of reading the settings early, as far as they do not depend on the depth, which may be unknown
 /// (0).
@@ -97,9 +97,9 @@ void check_settings(const std::string& file, const std::string& model, const Pro
     read_settings(file, probe.frequency_mhz, depth_mm);
   } else {
     try {
-      read_settings(file, probe.frequency_mhz, kLeastDepth_mm);
+      read_settings(file, probe.frequency_mhz, kMinDepth_mm);
     } catch (const InputError&) {
-      read_settings(file, probe.frequency_mhz, kMostDepth_mm);
+      read_settings(file, probe.frequency_mhz, kMaxDepth_mm);
     }
   }
 }
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
       ->type_name(one_of(probe_names()))
       ->capture_default_str();
   arguments.add_option("--depth", depth_mm, "Set the imaging depth, mm")
-      ->check(CLI::Range(kLeastDepth_mm, kMostDepth_mm))
+      ->check(CLI::Range(kMinDepth_mm, kMaxDepth_mm))
       ->default_str("that of the view, or of the probe");
   arguments
       .add_option("--model", model, "Use model S, for training (Shams, Kutter), or model W, for registration (Wein)")
@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
           "--settings", settings_file,
           "Read the model's settings from this file (TOML). For model S: preset = \"paper\" or \"trainer\", and "
           "fields of sim/model/settings.h that differ from it. For model W: fields of "
-          "sim/registration/wein_settings.h")
+          "sim/wein/wein_settings.h")
       ->type_name("FILE")
       ->default_str(
           "those of the trainer without its compounding, persistence, edge enhancement and ring-down, for model W its "

@@ -29,14 +29,14 @@ Json json(const glm::dvec3& v) {
 }
 
 Json echogenicity_constants() {
-  return {{"texture_db_per_hu", kTextureDbPerHu}, {"texture_hu", kTextureHu},        {"rim_hu", kRimHu},
-          {"edge_reach_mm", kEdgeRadius_mm},      {"edge_margin_hu", kEdgeMarginHu}, {"most_air_hu", kMostAirHu},
-          {"least_db", kLeastEchogenicityDb},     {"most_db", kMostEchogenicityDb}};
+  return {{"texture_db_per_hu", kTextureDbPerHu}, {"texture_hu", kTexture_hu},        {"rim_hu", kRim_hu},
+          {"edge_reach_mm", kEdgeRadius_mm},      {"edge_margin_hu", kEdgeMargin_hu}, {"most_air_hu", kMaxAir_hu},
+          {"least_db", kMinEchogenicity_db},      {"most_db", kMaxEchogenicity_db}};
 }
 
 Json ct_noise_constants() {
-  return {{"step_mm", kNoiseStep_mm},   {"usual_hu", kUsualNoiseHu},       {"least_tissue_ml", kLeastTissue_ml},
-          {"filtered_hu", kFilteredHu}, {"alike_in_guide", kAlikeInGuide}, {"alike_in_result", kAlikeInResult}};
+  return {{"step_mm", kNoiseStep_mm},    {"usual_hu", kUsualNoise_hu},      {"least_tissue_ml", kMinTissue_ml},
+          {"filtered_hu", kFiltered_hu}, {"alike_in_guide", kAlikeInGuide}, {"alike_in_result", kAlikeInResult}};
 }
 
 Json scatterer_constants() {
@@ -108,8 +108,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   Json text = describe_geometry("S", geometry, scene.patient_from_probe, scene.volume, made_by);
   text["reflection_length_mm"] = scene.settings.reflection_length_mm;
   text["frequency_mhz"] = scene.settings.frequency_mhz;
-  text["coupling_air_hu"] = kCouplingAirHu;
-  text["coupling_tissue_hu"] = kCouplingTissueHu;
+  text["coupling_air_hu"] = kCouplingAir_hu;
+  text["coupling_tissue_hu"] = kCouplingTissue_hu;
   text["coupling_depth_mm"] = coupling_depth_mm(scene.settings);
   describe_settings(text, named_settings(scene.settings));
   for (const TissueKnot& knot : scene.table.knots)
@@ -123,8 +123,8 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
     if (!scene.tissue_of[label].empty()) text["tissue_of_label"][std::to_string(label)] = scene.tissue_of[label];
   text["echogenicity"] = echogenicity_constants();
   text["ct_noise"] = ct_noise_constants();
-  text["silent_db"] = kSilentDb;
-  text["least_echo"] = kLeastEcho;
+  text["silent_db"] = kSilent_db;
+  text["least_echo"] = kMinEcho;
   text["scatterers"] = scatterer_constants();
   text["looks_rad"] = look_angles(scene.probe, scene.settings);
   if (is_filtered(scene.settings))
@@ -137,20 +137,20 @@ Json describe(const RenderedScene& scene, const StageGeometry& geometry, const s
   text["clutter_share"] = clutter_share(scene.settings);
   text["clutter_tail_mm"] = kClutterTail_mm;
   text["wall_clutter"] = {
-      {"wall_return", kWallReturn}, {"layer_share", kLayerShare}, {"least_layer_echo", kLeastLayerEcho}};
-  text["reverberation"] = {{"least_round", kLeastRound},
-                           {"least_from_face", kLeastFromFace},
-                           {"least_reverberant", kLeastReverberant},
-                           {"most_repeats", kMostRepeats},
-                           {"most_reflectors", kMostReflectors}};
-  text["mirror_image"] = {{"least_mirror", kLeastMirror},
+      {"wall_return", kWallReturn}, {"layer_share", kLayerShare}, {"least_layer_echo", kMinLayerEcho}};
+  text["reverberation"] = {{"least_round", kMinRound},
+                           {"least_from_face", kMinFromFace},
+                           {"least_reverberant", kMinReverberant},
+                           {"most_repeats", kMaxRepeats},
+                           {"most_reflectors", kMaxReflectors}};
+  text["mirror_image"] = {{"least_mirror", kMinMirror},
                           {"full_mirror", kFullMirror},
-                          {"most_mirrored", kMostMirrored},
+                          {"most_mirrored", kMaxMirrored},
                           {"own_place", kOwnPlace}};
   text["refraction"] = {{"log_speed_below_water", kLogSpeedBelowWater},
                         {"log_speed_above_water", kLogSpeedAboveWater},
-                        {"least_hu", kLeastRefractingHu},
-                        {"most_hu", kMostRefractingHu},
+                        {"least_hu", kMinRefracting_hu},
+                        {"most_hu", kMaxRefracting_hu},
                         {"turn_rad", kDeflection_rad},
                         {"turn_mm", kDeflection_mm}};
   if (scene.settings.waves)

@@ -5,9 +5,9 @@
 #include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
-#include "sim/registration/wein_reference.h"
-#include "sim/registration/wein_settings_file.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_reference.h"
+#include "sim/wein/wein_settings_file.h"
+#include "sim/wein/wein_simulator.h"
 #include "tools/render/stage_description.h"
 #include "tools/render/stage_files.h"
 
@@ -42,8 +42,8 @@ void write_stages(const std::filesystem::path& folder, const WeinScene& scene, c
       describe_geometry("W", geometry, scene.patient_from_probe, scene.volume, rendered.made_by);
   describe_settings(text, named_settings(settings));
   text["air_mu"] = kAirMu;
-  text["contact_tissue_hu"] = kCouplingTissueHu;
-  text["contact_air_hu"] = kCouplingAirHu;
+  text["contact_tissue_hu"] = kCouplingTissue_hu;
+  text["contact_air_hu"] = kCouplingAir_hu;
   write_file(folder / "scanlines.json", text.dump(1) + "\n");
   write_hounsfield(folder, scene.volume);
   write_among_lines(folder, "intensity", rendered.stages.intensity, "I, relative to the intensity at the face");

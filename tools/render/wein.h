@@ -5,9 +5,9 @@
 
 #include "sim/core/pose.h"
 #include "sim/probe/probe.h"
-#include "sim/registration/wein_settings.h"
-#include "sim/registration/wein_stages.h"
 #include "sim/tissue/acoustic_volume.h"
+#include "sim/wein/wein_settings.h"
+#include "sim/wein/wein_stages.h"
 
 namespace insonate {
 
@@ -31,7 +31,7 @@ struct RenderedWein {
 RenderedWein render_wein(const std::string& file, const WeinScene& scene, bool by_reference);
 
 /// Writes the data that pass between the stages to a folder, for users who recompute them as
-/// sim/registration/wein_settings.h defines them.
+/// sim/wein/wein_settings.h defines them.
 ///
 /// `scanlines.json` holds the lines (patient mm), the positions of their samples, the pose, every setting, the model's
 /// constants, and the positions of pixels in the probe's plane. The folder also holds the insonated volume

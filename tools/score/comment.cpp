@@ -48,7 +48,7 @@ void add_comment_command(CLI::App& arguments, CommandRun& run) {
   attempt->type_name("NUMBER")->check(CLI::PositiveNumber);
   CLI::Option* text = command->add_option(
       "--text", given->text,
-      "Store this text: one paragraph of at most " + std::to_string(Comment::kMostCharacters) + " characters");
+      "Store this text: one paragraph of at most " + std::to_string(Comment::kMaxCharacters) + " characters");
   text->type_name("TEXT");
   CLI::Option* author =
       command->add_option("--author", given->author, "State this id as the author's, which is not a name");

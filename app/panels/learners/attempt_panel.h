@@ -39,7 +39,7 @@ private:
   void draw_fields(const Theme& theme, Rect where, LearnersPage& page, const Run& run,
                    std::map<std::string, Rect>& places);
 
-  TextField comment_{4 * Comment::kMostCharacters}, author_;
+  TextField comment_{4 * Comment::kMaxCharacters}, author_;
   /// An attempt in its database: numbers of other databases are the same.
   using Key = std::pair<std::string, std::int64_t>;
   std::map<Key, std::string> drafts_;

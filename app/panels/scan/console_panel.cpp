@@ -54,27 +54,27 @@ std::vector<Knob> knobs_of(const Theme& theme, const Machine& machine) {
   const auto percent = [](double share) { return share > 0 ? formatted("%.0f %%", 100 * share) : std::string("off"); };
   return {
       {"depth", ActionKind::depth, "Depth", depth_text(theme.look(), machine.depth_mm), machine.depth_mm,
-       Machine::kLeastDepth_mm, Machine::kMostDepth_mm, 5, probe.depth_mm,
+       Machine::kMinDepth_mm, Machine::kMaxDepth_mm, 5, probe.depth_mm,
        "How deep the picture goes. A double click takes the probe's own depth.  ([ and ])"},
-      {"gain", ActionKind::gain, "Gain", formatted("%+.0f dB", machine.gain_db), machine.gain_db,
-       -Machine::kMostGain_db, Machine::kMostGain_db, 1, 0,
+      {"gain", ActionKind::gain, "Gain", formatted("%+.0f dB", machine.gain_db), machine.gain_db, -Machine::kMaxGain_db,
+       Machine::kMaxGain_db, 1, 0,
        "Makes all echoes brighter or darker. A double click takes it back.  (+ and \u2212)"},
       {"compounding", ActionKind::compounding, "Compound",
        machine.steering_angles > 1 ? formatted("%d angles", machine.steering_angles) : std::string("off"),
-       double(machine.steering_angles / 2), 0, double(Machine::kMostSteeringAngles / 2), 1,
+       double(machine.steering_angles / 2), 0, double(Machine::kMaxSteeringAngles / 2), 1,
        double(usual.steering_angles / 2),
        "Averages pictures from several directions: less speckle, softer shadows, and outlines that are whole.", 1, 2},
       {"edges", ActionKind::edge_enhancement, "Edges", formatted("%.2g", machine.edge_enhancement),
-       machine.edge_enhancement, 0, Machine::kMostEdgeEnhancement, 0.25, usual.edge_enhancement,
+       machine.edge_enhancement, 0, Machine::kMaxEdgeEnhancement, 0.25, usual.edge_enhancement,
        "Sharpens outlines. A double click takes the usual amount."},
       {"frequency", ActionKind::frequency, "Frequency", formatted("%.1f MHz", machine.frequency_mhz),
        machine.frequency_mhz, 1.5, 12, 0.5, probe.frequency_mhz,
        "A high frequency shows finer detail and reaches less deep. A double click takes the probe's own."},
       {"range", ActionKind::dynamic_range, "Range", formatted("%.0f dB", machine.dynamic_range_db),
-       machine.dynamic_range_db, Machine::kLeastDynamicRange_db, Machine::kMostDynamicRange_db, 5, kUsualDynamicRangeDb,
+       machine.dynamic_range_db, Machine::kMinDynamicRange_db, Machine::kMaxDynamicRange_db, 5, kUsualDynamicRange_db,
        "How weak an echo is still grey. A small range is rich in contrast, a large one shows weak echoes."},
       {"persistence", ActionKind::persistence, "Persistence", percent(machine.persistence), machine.persistence, 0,
-       Machine::kMostPersistence, 0.1, usual.persistence,
+       Machine::kMaxPersistence, 0.1, usual.persistence,
        "How much of the frame before stays in a moving picture: less noise, but a fast move smears."},
       {"smoothing", ActionKind::speckle_reduction, "Smoothing", percent(machine.speckle_reduction),
        machine.speckle_reduction, 0, 1, 0.1, usual.speckle_reduction, "Reduces speckle where the tissue is even."},
@@ -102,13 +102,13 @@ void draw_knobs(const Theme& theme, const Rect& where, Session& session) {
 bool knobs_fit(const Theme& theme, float panel_width) {
   Machine widest;
   widest.probe = probes().front().name;
-  widest.depth_mm = Machine::kMostDepth_mm;
-  widest.gain_db = -Machine::kMostGain_db;
-  widest.steering_angles = Machine::kMostSteeringAngles;
-  widest.edge_enhancement = Machine::kMostEdgeEnhancement - 0.25;
+  widest.depth_mm = Machine::kMaxDepth_mm;
+  widest.gain_db = -Machine::kMaxGain_db;
+  widest.steering_angles = Machine::kMaxSteeringAngles;
+  widest.edge_enhancement = Machine::kMaxEdgeEnhancement - 0.25;
   widest.frequency_mhz = 12;
-  widest.dynamic_range_db = Machine::kMostDynamicRange_db;
-  widest.persistence = Machine::kMostPersistence;
+  widest.dynamic_range_db = Machine::kMaxDynamicRange_db;
+  widest.persistence = Machine::kMaxPersistence;
   widest.speckle_reduction = 1;
   const float others = kProbes + kButtons + kTimeGain + 3 * kColumnGap + 2 * kWideMargin + (kColumns - 1) * kKnobGap;
   const float width = (panel_width - theme.px(others)) / kColumns;
@@ -129,7 +129,7 @@ void draw_time_gain(const Theme& theme, Rect where, Session& session) {
   for (std::size_t i = 0; i < sliders.size(); ++i) {
     const std::string id = "tgc" + std::to_string(i);
     double value = sliders[i];
-    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMostTimeGain_db, why_not.empty(),
+    if (upright_slider(theme, id.c_str(), where.take_left(width), value, Machine::kMaxTimeGain_db, why_not.empty(),
                        "Gain at this depth. A double click takes it back."))
       session.set({ActionKind::time_gain, {double(i + 1), value}});
   }

@@ -84,9 +84,9 @@ void draw_group(const Theme& theme, const Rect& row, const std::string& title, c
 
 /// Returns the reasons for not passing, as many as leave room for the rows, and how many there are besides.
 std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) {
-  constexpr std::size_t kMost = 6;
-  if (reasons.size() <= kMost) return reasons;
-  std::vector<std::string> shown(reasons.begin(), reasons.begin() + kMost - 1);
+  constexpr std::size_t kMax = 6;
+  if (reasons.size() <= kMax) return reasons;
+  std::vector<std::string> shown(reasons.begin(), reasons.begin() + kMax - 1);
   shown.push_back("and " + std::to_string(reasons.size() - shown.size()) + " more, which the report names");
   return shown;
 }

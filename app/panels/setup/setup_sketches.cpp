@@ -20,7 +20,7 @@
 namespace insonate::ui {
 namespace {
 
-/// Length of the drawn probe from its face to its tail, mm, as sim/shaders/shared/probe_body.glsl has it.
+/// Length of the drawn probe from its face to its tail, mm, as sim/shaders/view/probe_body.glsl has it.
 constexpr double kProbeLength_mm = 131;
 
 ImVec2 screen(const glm::dvec2& point) {

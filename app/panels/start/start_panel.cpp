@@ -140,9 +140,9 @@ void StartPanel::draw_learner(const Theme& theme, Rect panel, StartPage& page, c
   std::vector<Choice> choices{
       {"learner_nobody", "Nobody", nobody && !refused ? ButtonKind::chosen : ButtonKind::normal}};
   std::vector<std::string> ids{""};
-  constexpr std::size_t kMost = 24;  // what flows into the rows
+  constexpr std::size_t kMax = 24;  // what flows into the rows
   for (const std::string& id : page.learners()) {
-    if (choices.size() > kMost) break;
+    if (choices.size() > kMax) break;
     if (learner_.is_open() && id.find(typed_learner_) == std::string::npos) continue;
     choices.push_back(
         {"learner_" + id, id, id == page.learner() && !refused ? ButtonKind::chosen : ButtonKind::normal});

@@ -13,17 +13,17 @@ namespace insonate::ui {
 namespace {
 
 // What a CT of the trunk contains. Points above stay at the right edge.
-constexpr double kLeft_hu = view::kFirstTransferHu, kRight_hu = 1600;
+constexpr double kLeft_hu = view::kFirstTransfer_hu, kRight_hu = 1600;
 
 // Tissue's opacity of 1 mm is small except at surfaces: the graph gives the lower tenth a third of its height.
 double height_of(double opacity) {
-  return std::sqrt(std::clamp(opacity / view::kMostOpacity, 0.0, 1.0));
+  return std::sqrt(std::clamp(opacity / view::kMaxOpacity, 0.0, 1.0));
 }
 double opacity_at(double height) {
-  return view::kMostOpacity * std::clamp(height, 0.0, 1.0) * std::clamp(height, 0.0, 1.0);
+  return view::kMaxOpacity * std::clamp(height, 0.0, 1.0) * std::clamp(height, 0.0, 1.0);
 }
 
-constexpr double kMostShift_hu = 300, kLeastScale = 0.25, kMostScale = 4;
+constexpr double kMaxShift_hu = 300, kMinScale = 0.25, kMaxScale = 4;
 
 // Colours of tissue, from air to bone, and some that stand out.
 constexpr std::array<glm::dvec3, 10> kColours{{{0.93, 0.80, 0.72},
@@ -50,9 +50,9 @@ float y_of(const Rect& graph, double opacity) {
 
 void draw_histogram(const Rect& graph, const std::vector<float>& bins) {
   for (std::size_t i = 0; i < bins.size(); ++i) {
-    const double hu = view::kFirstTransferHu + double(i) * PatientLook::kBinHu;
+    const double hu = view::kFirstTransfer_hu + double(i) * PatientLook::kBin_hu;
     if (hu >= kRight_hu) break;
-    const float left = x_of(graph, hu), right = x_of(graph, hu + PatientLook::kBinHu);
+    const float left = x_of(graph, hu), right = x_of(graph, hu + PatientLook::kBin_hu);
     fill({left, graph.y + graph.h * (1 - bins[i]), right - left, graph.h * bins[i]}, colour::kHovered);
   }
 }
@@ -255,12 +255,12 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
     char text[32];
     double shift = look.shift_hu(), doublings = std::log2(look.scale_factor());
     std::snprintf(text, sizeof text, "%+.0f HU", shift);
-    if (slider(theme, "look_shift", places["look_shift"] = left, "Threshold", text, shift, -kMostShift_hu,
-               kMostShift_hu, 5, 0, true, "Moves the whole function. A double click takes it back."))
+    if (slider(theme, "look_shift", places["look_shift"] = left, "Threshold", text, shift, -kMaxShift_hu, kMaxShift_hu,
+               5, 0, true, "Moves the whole function. A double click takes it back."))
       look.shift(shift);
     std::snprintf(text, sizeof text, "%.0f %%", 100 * look.scale_factor());
-    if (slider(theme, "look_scale", places["look_scale"] = sliders, "Width", text, doublings, std::log2(kLeastScale),
-               std::log2(kMostScale), 0.05, 0, true, "Widens or narrows the function. A double click takes it back."))
+    if (slider(theme, "look_scale", places["look_scale"] = sliders, "Width", text, doublings, std::log2(kMinScale),
+               std::log2(kMaxScale), 0.05, 0, true, "Widens or narrows the function. A double click takes it back."))
       look.scale(std::exp2(doublings));
   }
   draw_scale(theme, rest.take_bottom(theme.px(16)));

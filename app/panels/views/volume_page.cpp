@@ -136,11 +136,11 @@ void draw_words(const Theme& theme, Rect rest, const SweptVolume& swept) {
   const SweepQuality& quality = swept.quality;
   draw_text(rest.take_top(theme.px(28)), theme.heading, colour::kText, "Swept volume");
   paragraph(theme.text, quality.is_good() ? colour::kText : colour::kAmber, quality.verdict());
-  constexpr std::size_t kMostFlaws = 5;
-  for (std::size_t n = 0; n < std::min(quality.flaws.size(), kMostFlaws); ++n)
+  constexpr std::size_t kMaxFlaws = 5;
+  for (std::size_t n = 0; n < std::min(quality.flaws.size(), kMaxFlaws); ++n)
     paragraph(theme.small_text, colour::kAmber, "\u2022 " + quality.flaws[n].words());
-  if (quality.flaws.size() > kMostFlaws)
-    paragraph(theme.small_text, colour::kAmber, formatted("and %zu more", quality.flaws.size() - kMostFlaws));
+  if (quality.flaws.size() > kMaxFlaws)
+    paragraph(theme.small_text, colour::kAmber, formatted("and %zu more", quality.flaws.size() - kMaxFlaws));
   const Grid& grid = swept.volume.grey.grid;
   paragraph(theme.small_text, colour::kMuted,
             formatted("%d x %d x %d voxels of %.2f mm. Bluish voxels are interpolated between pictures.", grid.size.x,
@@ -337,10 +337,10 @@ VolumeAnswer VolumePage::draw(const Theme& theme, const Rect& screen, const std:
     slider(theme, id, place, name, text, value, 0, most, step, normal, problem_.empty() && !in_patient_, tip);
   };
   const view::SweptLook usual;
-  look_slider("swept_opacity", "Opacity", formatted("%.0f %%", 100 * look_.opacity), look_.opacity, view::kMostOpacity,
+  look_slider("swept_opacity", "Opacity", formatted("%.0f %%", 100 * look_.opacity), look_.opacity, view::kMaxOpacity,
               0.005, usual.opacity, "Of 1 mm of white tissue in the volume. A double click takes it back.");
   look_slider("swept_threshold", "Threshold", formatted("%.0f", look_.threshold), look_.threshold,
-              view::kMostSweptThreshold, 1, usual.threshold,
+              view::kMaxSweptThreshold, 1, usual.threshold,
               "Grey level from which tissue shows in the volume. A double click takes it back.");
   if (next("cut_volume", cut_ ? "Show the whole volume  (C)" : "Cut the volume at the plane  (C)", ButtonKind::normal,
            "The plane is that of the probe's picture", !in_patient_))

@@ -11,7 +11,7 @@ namespace insonate::ui {
 namespace {
 
 /// Smaller text is hard to read on a laptop.
-constexpr float kLeastText_px = 13;
+constexpr float kMinText_px = 13;
 
 // Latin with its accents, and the other characters that the panels use: dashes, quotes, ellipsis, arrows.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x2010, 0x2027, 0x2190, 0x2195, 0x21ba, 0x21ba, 0x2212, 0x2212, 0};
@@ -85,7 +85,7 @@ bool Theme::fit(float width, float height, const Look& look) {
   atlas.Clear();
   const std::filesystem::path regular = folder_ / "Inter-Regular.otf", bold = folder_ / "Inter-SemiBold.otf";
   text = load(regular, size(16));
-  small_text = load(regular, std::max(size(13.5f), kLeastText_px));
+  small_text = load(regular, std::max(size(13.5f), kMinText_px));
   strong = load(bold, size(16));
   large = load(regular, size(24));
   title = load(bold, size(32));

@@ -18,8 +18,8 @@ std::string work_text(const LiveSession& session, const LiveRegistrar::State& st
   switch (state.work) {
     case Work::waiting:
       if (session.shown() == 0) return "Waiting for images";
-      return std::string(state.needs.spread_mm < kLeastSpread_mm ? "Move the probe: "
-                                                                 : "Move the probe, and the search begins: ") +
+      return std::string(state.needs.spread_mm < kMinSpread_mm ? "Move the probe: "
+                                                               : "Move the probe, and the search begins: ") +
              std::to_string(state.in_use) + " images within " + formatted("%.0f", state.spread_mm) +
              " mm; needed are " + to_string(state.needs);
     case Work::preparing:

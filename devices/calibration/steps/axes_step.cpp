@@ -37,7 +37,7 @@ void AxesStep::take(const SensorSample& sample) {
   if (!std::exchange(waiting_, false)) return;
   ends_.push_back(*newest_);
   const std::size_t count = ends_.size();
-  if (count % 2 == 0 && glm::distance(ends_[count - 2].translation, ends_[count - 1].translation) < kLeastMoveMm) {
+  if (count % 2 == 0 && glm::distance(ends_[count - 2].translation, ends_[count - 1].translation) < kMinMove_mm) {
     refuse("That was too short; begin this move again and move by 100 mm or more.");
     ends_.resize(count - 2);
   }

@@ -10,14 +10,14 @@
 
 namespace insonate {
 
-/// Reads a point of the probe that is held still for kReadS after a mark.
+/// Reads a point of the probe that is held still for kRead_s after a mark.
 class HeldPoint {
 public:
-  static constexpr double kReadS = 0.5;
+  static constexpr double kRead_s = 0.5;
 
   /// @param point_of  returns the point (mm) for a usable pose
   void begin(double time_s, std::function<glm::dvec3(const Pose&)> point_of) {
-    end_s_ = time_s + kReadS;
+    end_s_ = time_s + kRead_s;
     point_of_ = std::move(point_of);
     readings_.clear();
     reading_ = true;

@@ -37,8 +37,8 @@ private:
 void LagStep::take(const SensorSample& sample) {
   if (done()) return;
   samples_.push_back(sample);
-  const bool over = blows_s_.size() >= kBlows && sample.time_s > blows_s_.back() + kMostLagS + 0.5;
-  if (!over && samples_.size() < kMostStepPoses) return;
+  const bool over = blows_s_.size() >= kBlows && sample.time_s > blows_s_.back() + kMaxLag_s + 0.5;
+  if (!over && samples_.size() < kMaxStepPoses) return;
   settle(knock_lag(samples_, blows_s_), found_);
   begin_again();
 }

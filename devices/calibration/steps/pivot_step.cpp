@@ -8,8 +8,8 @@
 namespace insonate {
 namespace {
 
-constexpr double kLongestPivotS = 60;
-constexpr double kPivotS = 10;
+constexpr double kLongestPivot_s = 60;
+constexpr double kPivot_s = 10;
 /// Number of poses for the repeated fits while poses arrive; each takes some milliseconds.
 constexpr std::size_t kFittedOnTheWay = 150;
 
@@ -65,8 +65,8 @@ void PivotStep::take(const SensorSample& sample) {
     const auto fit = fit_tip(some_of(poses_, kFittedOnTheWay));
     residual_mm_ = fit ? std::optional(fit->residual_mm) : std::nullopt;
   }
-  const bool enough = lasted_s_ > kPivotS && spread_deg_ > 1.3 * kLeastPivotSpreadDeg;
-  if (enough || poses_.size() >= kMostStepPoses || lasted_s_ > kLongestPivotS) mark(sample.time_s);
+  const bool enough = lasted_s_ > kPivot_s && spread_deg_ > 1.3 * kMinPivotSpread_deg;
+  if (enough || poses_.size() >= kMaxStepPoses || lasted_s_ > kLongestPivot_s) mark(sample.time_s);
 }
 
 void PivotStep::ask(SetupView& view) const {
@@ -75,13 +75,13 @@ void PivotStep::ask(SetupView& view) const {
                   ? formatted(
                         "Keep the tip in the dimple. Tilt the probe by %d degrees to all sides, and turn it about "
                         "its length.",
-                        kPivotTiltDeg)
+                        kPivotTilt_deg)
                   : "Put the probe's pointed tip into a dimple that stands fast, away from metal. Mark, then pivot "
                     "for ten seconds.";
   if (!reading_) return;
-  view.share = std::min({1.0, lasted_s_ / kPivotS, spread_deg_ / (1.3 * kLeastPivotSpreadDeg)});
+  view.share = std::min({1.0, lasted_s_ / kPivot_s, spread_deg_ / (1.3 * kMinPivotSpread_deg)});
   view.feedback = formatted("%.0f s, %zu poses, turned by %.0f %% of what is needed", lasted_s_, poses_.size(),
-                            std::min(100.0, std::floor(100 * spread_deg_ / (1.3 * kLeastPivotSpreadDeg))));
+                            std::min(100.0, std::floor(100 * spread_deg_ / (1.3 * kMinPivotSpread_deg))));
   if (residual_mm_) view.feedback += formatted(", residual %.2f mm", *residual_mm_);
 }
 

@@ -25,6 +25,6 @@ std::unique_ptr<SetupStep> lag_step(const Calibration& base);
 
 /// Limit for a step that collects poses: a minute of the fastest tracker. It keeps a forgotten step from filling the
 /// memory.
-inline constexpr std::size_t kMostStepPoses = 60000;
+inline constexpr std::size_t kMaxStepPoses = 60000;
 
 }  // namespace insonate

@@ -25,8 +25,8 @@ std::optional<char32_t> take_character(std::string_view& text) {
     if ((byte(i) & 0xc0u) != 0x80) return std::nullopt;
     character = character << 6 | (byte(i) & 0x3fu);
   }
-  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (character < kLeast[length] || character > 0x10ffff || (character >= 0xd800 && character < 0xe000))
+  constexpr char32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000};
+  if (character < kMin[length] || character > 0x10ffff || (character >= 0xd800 && character < 0xe000))
     return std::nullopt;
   text.remove_prefix(length);
   return character;
@@ -48,9 +48,9 @@ std::string why_no_comment(std::string_view text) {
     blank = blank && *character == ' ';
   }
   if (blank) return "the comment is empty";
-  if (characters > Comment::kMostCharacters)
+  if (characters > Comment::kMaxCharacters)
     return "the comment has " + std::to_string(characters) + " characters, above the limit of " +
-           std::to_string(Comment::kMostCharacters);
+           std::to_string(Comment::kMaxCharacters);
   return {};
 }
 
@@ -58,7 +58,7 @@ void check_comment(const Comment& comment, const std::string& file) {
   if (!comment.author.empty()) check_learner_id(comment.author, file, "author");
   if (const std::string why = why_no_comment(comment.text); !why.empty())
     throw InputError(file, "comment", why,
-                     "write one paragraph of at most " + std::to_string(Comment::kMostCharacters) + " characters");
+                     "write one paragraph of at most " + std::to_string(Comment::kMaxCharacters) + " characters");
 }
 
 }  // namespace insonate

@@ -15,11 +15,11 @@ struct Comment {
   std::string text;             ///< UTF-8 without control characters
 
   /// The longest text, in characters. It keeps a report readable.
-  static constexpr std::size_t kMostCharacters = 2000;
+  static constexpr std::size_t kMaxCharacters = 2000;
 };
 
 /// Returns what is wrong with a comment's text, as the problem part of an InputError. Returns an empty text for a valid
-/// one: 1 to kMostCharacters characters of UTF-8, not all blank, without line breaks and other control characters.
+/// one: 1 to kMaxCharacters characters of UTF-8, not all blank, without line breaks and other control characters.
 std::string why_no_comment(std::string_view text);
 
 /// Throws InputError if the text is not valid, or if the author is neither empty nor an opaque id.

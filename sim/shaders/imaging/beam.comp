@@ -69,7 +69,7 @@ void main() {
 
   reflection /= total;
   repeated /= total;
-  float least = two_way == 1 ? kLeastIntensity : kLeastEcho;
+  float least = two_way == 1 ? kMinIntensity : kMinEcho;
   vec4 heard = mix(vec4(0.0), intensity, greaterThan(intensity, vec4(least)));
   vec4 transmission = two_way == 1 ? heard * heard : heard;
 #if STORED_SPECKLE == 1

@@ -33,6 +33,6 @@ void main() {
   }
   mean_echo[plane * samples + k] = vec4(sum, 0.0, arriving, 0.0) / float(lines);
 #if WAVES == 1
-  layer_echo[plane * samples + k] = max(of_layers / float(lines) - kLeastLayerEcho, 0.0);
+  layer_echo[plane * samples + k] = max(of_layers / float(lines) - kMinLayerEcho, 0.0);
 #endif
 }

@@ -16,13 +16,13 @@ layout(std430, binding = 1) buffer Scan { vec4 echoes[]; };  // one row per line
 // Returns the share of sound that is lost at a sample.
 float loss(int k) {
   float arriving = intensity(k);
-  return arriving > kLeastReverberant ? 1.0 - pow(min(intensity(k + 1) / arriving, 1.0), 1.0 / reflection_exponent) : 0.0;
+  return arriving > kMinReverberant ? 1.0 - pow(min(intensity(k + 1) / arriving, 1.0), 1.0 / reflection_exponent) : 0.0;
 }
 
 // Returns the first sample at or behind j, in steps of `counting`, that may lose enough to mirror; `end` or more if none
 // does. A loop of its own: a software renderer executes what follows for every sample that this does not pass over.
 int next_loss(int j, int counting, int end) {
-  float kept = pow(1.0 - kLeastMirror, reflection_exponent) * 1.00001;  // with room for the rounding in loss()
+  float kept = pow(1.0 - kMinMirror, reflection_exponent) * 1.00001;  // with room for the rounding in loss()
   while (j < end && intensity(j + 1) >= kept * intensity(j)) j += counting;
   return j;
 }
@@ -52,7 +52,7 @@ void add_image(float c, float arriving, float mirrored, float amplitude, int fir
 void add_images(int j, float amplitude, int first, int end) {
   float c = place_of_interface(j, kOwnPlace), arriving = intensity(j - reach() + 1);
   float from_face = c + 0.5 + r_min_mm / dr_mm, kept = 1.0;
-  for (float trips = 1.0; kept >= kLeastOfFace && trips * from_face < float(samples) + from_face - c; ++trips) {
+  for (float trips = 1.0; kept >= kMinOfFace && trips * from_face < float(samples) + from_face - c; ++trips) {
     float before = (trips - 1.0) * from_face;
     add_image(c, arriving, 2.0 * c + before, amplitude * kept, max(first, int(before)), end);
     kept *= face_amplitude * arriving;
@@ -65,10 +65,10 @@ void main() {
   row = part % all_lines * samples;
   gas = samples;
   int counting = max(int(0.25 / reflection_exponent + 1e-3), 1);
-  float of_sample = min(float(counting) * reflection_exponent, 1.0), left = kMostMirrored;
+  float of_sample = min(float(counting) * reflection_exponent, 1.0), left = kMaxMirrored;
   for (int j = next_loss(0, counting, end - 1); j < end - 1 && left > 0.0;
        j = next_loss(j + counting, counting, end - 1)) {
-    float share = min(of_sample * smoothstep(kLeastMirror, kFullMirror, loss(j)), left);
+    float share = min(of_sample * smoothstep(kMinMirror, kFullMirror, loss(j)), left);
     if (share <= 0.0) continue;
     gas = min(gas, j);
     left -= share;

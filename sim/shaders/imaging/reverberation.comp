@@ -21,7 +21,7 @@ void add(float position, float echo) {
   float f = position - float(low), g = 1.0 - f;
   vec4 share = vec4(g * g * g, 4.0 - f * f * (6.0 - 3.0 * f), 4.0 - g * g * (6.0 - 3.0 * g), f * f * f) * (echo / 6.0);
   for (int i = 0; i < 4; ++i)
-    if (low - 1 + i >= 0 && low - 1 + i < samples && share[i] > kLeastEcho) repeats[row + low - 1 + i] += share[i];
+    if (low - 1 + i >= 0 && low - 1 + i < samples && share[i] > kMinEcho) repeats[row + low - 1 + i] += share[i];
 }
 
 // Returns what a round trip that leaves the share `round_trip` counts as: 0 for `least` and below.
@@ -36,9 +36,9 @@ float counted(float round_trip, float least) {
 void repeat(int k, float echo, float apart, float gain) {
   float position = float(k) + apart;
   // The spline of a position less than two samples behind the last sample still covers that sample.
-  for (int n = 0; n < kMostRepeats && position < float(samples + 1); ++n, position += apart) {
+  for (int n = 0; n < kMaxRepeats && position < float(samples + 1); ++n, position += apart) {
     echo *= gain;
-    if (echo < kLeastEcho) return;
+    if (echo < kMinEcho) return;
     add(position, echo);
   }
 }
@@ -49,20 +49,20 @@ void main() {
   row = line * samples;
 
   // The list comes first: renderers that run lanes in lockstep would spend on every sample what only these need.
-  int at[kMostReflectors];
+  int at[kMaxReflectors];
   int count = 0;
-  for (int k = 0; k < samples && count < kMostReflectors; ++k)
-    if (reflected(k).x > kLeastRound) at[count++] = k;
+  for (int k = 0; k < samples && count < kMaxReflectors; ++k)
+    if (reflected(k).x > kMinRound) at[count++] = k;
 
   float length_in_samples = 2.0 * half_reflection_length;
   float share = min(reflection_exponent, 1.0);
-  float strength[kMostReflectors], place[kMostReflectors], behind[kMostReflectors];
+  float strength[kMaxReflectors], place[kMaxReflectors], behind[kMaxReflectors];
   for (int j = 0; j < count; ++j) {
     int k = at[j];
     vec2 here = reflected(k);
     float c = place_of_interface(k, 0.0), before = intensity(k - reach() + 1);
 #if AT_FACE == 1
-    float of_face = face_reflection * counted(here.x * before * before, kLeastFromFace);
+    float of_face = face_reflection * counted(here.x * before * before, kMinFromFace);
     if (of_face > 0.0) repeat(k, here.y, c + 0.5 + r_min_mm / dr_mm, of_face);
 #endif
 #if IN_TISSUE == 1
@@ -72,7 +72,7 @@ void main() {
         apart = c - place[i];
         float between = min(before / behind[i], 1.0);
         float separate = clamp(2.0 * apart / length_in_samples - 1.0, 0.0, 1.0);
-        gain = counted(separate * strength[i] * here.x * between * between, kLeastRound);
+        gain = counted(separate * strength[i] * here.x * between * between, kMinRound);
       }
       if (gain == 0.0) break;
       repeat(k, here.y * share, apart, gain);

@@ -66,7 +66,7 @@ void convert(ivec2 pixel) {
 #endif
   if (ring_down > 0.0) value.x += ring_down * exp(-ring_down_per_sample * (place.y + 0.5));
   float echo = dot(value.xy, value.xy) + value.w;
-  echo = inside && echo > kLeastEcho ? echo : 0.0;
+  echo = inside && echo > kMinEcho ? echo : 0.0;
 #if LOOKS == 1
   picture[index_of(pixel)] = vec2(echo, 0.0);
 #else

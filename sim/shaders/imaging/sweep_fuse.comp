@@ -38,7 +38,7 @@ void main() {
   if (WAVES == 1) {
     if (ring_down > 0.0) wave.x += ring_down * exp(-ring_down_per_sample * (float(k) + 0.5));
     echo = dot(wave, wave) + value.w;
-    if (echo <= kLeastEcho) echo = 0.0;
+    if (echo <= kMinEcho) echo = 0.0;
   }
   fused[at] = echo;
 }

@@ -21,5 +21,5 @@ void main() {
            (texelFetch(layer_echo, row + k - i).x + texelFetch(layer_echo, row + k - 1 - i).x);
   sum += texelFetch(layer_echo, row + k).x * texelFetch(layer_echo, row).x;
   float arriving = mean_echo[row + k].z, clutter = kWallReturn * reflection_exponent * 0.5 * sum;
-  mean_echo[row + k].yz = arriving > kLeastEcho ? vec2(clutter, clutter / arriving) : vec2(0.0);
+  mean_echo[row + k].yz = arriving > kMinEcho ? vec2(clutter, clutter / arriving) : vec2(0.0);
 }

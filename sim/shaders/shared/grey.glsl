@@ -6,7 +6,7 @@ const float kSilent = -1e30;       // level of a pixel without echo
 const float kOutsideFan = 1e30;    // level of a pixel outside the fan
 
 // In decibels, because gains may exceed the range of single precision and their decibels do not.
-float level_db(float echo) { return echo > kLeastEcho ? 4.342944819 * log(echo) : kSilent; }
+float level_db(float echo) { return echo > kMinEcho ? 4.342944819 * log(echo) : kSilent; }
 
 // Exponents and curve are those of GreyMap (sim/model/settings.h).
 float mapped(float g) {

@@ -52,7 +52,7 @@ const float kSilentAmplitude = 1.00115195e-6;
 #endif
 // ln 10^-33. Intensity is a factor of each echo at least once, and echoes below 10^-30 count as 0 (least_echo.glsl).
 // The planes of a slice add up to one echo, so each is known to a thousandth of that limit.
-const float kLeastLogIntensity = -76.0;
+const float kMinLogIntensity = -76.0;
 
 Line line;
 int scattered_row;  // index of the line's first sum in `scattered`
@@ -188,7 +188,7 @@ vec2 scatterers_echo(float k, Medium here) {
 // Returns the share of sound that an interface returns although it may be the surface of gel that touches nothing
 // (sim/tissue/coupling.h).
 float returned_by_gel(float k, Medium behind) {
-  bool ends_here = coupling_depth_mm > half_reflection_length * dr_mm + kLeastGel_mm &&
+  bool ends_here = coupling_depth_mm > half_reflection_length * dr_mm + kMinGel_mm &&
                    depth(k - half_reflection_length) < coupling_depth_mm &&
                    depth(k + half_reflection_length) >= coupling_depth_mm;
   return ends_here ? mix(1.0, kFreeGelShare, gel_share(behind.hu)) : 1.0;
@@ -203,7 +203,7 @@ struct Sample {
 };
 
 float absorbed(Medium here) {
-  float below = max(kEndlessDb - 0.01 * here.echogenicity, 0.0);
+  float below = max(kEndless_db - 0.01 * here.echogenicity, 0.0);
   float by_end = kEndAbsorption * below * below;  // sim/tissue/acoustic_volume.h
   return (ABSORPTION == 1 ? here.absorption + by_end : by_end) * absorption_per_sample;
 }
@@ -216,7 +216,7 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
   met.cosine = kMeanCosine;
 #if EDGE_SHADOW == 1
   Surroundings around = surroundings(k, behind.hu - before.hu);
-  vec4 soft = clamp(around.beside, kLeastRefractingHu, kMostRefractingHu);
+  vec4 soft = clamp(around.beside, kMinRefracting_hu, kMaxRefracting_hu);
   vec4 log_speed = kLogSpeedBelowWater * min(soft, 0.0) + kLogSpeedAboveWater * max(soft, 0.0);
   met.deflection = (log_speed.xz - log_speed.yw) * deflection_per_step;
 #endif
@@ -232,7 +232,7 @@ Sample sample_at(float k, Medium here, Medium before, Medium behind) {
 #if WAVES == 1
   met.cosine = pow(met.cosine, specular_exponent) * returned_by_gel(k, behind);
   float squared = met.alpha * met.alpha, weak = 0.5 * blend;
-  float mirrored = sqrt(met.alpha * met.cosine) * squared / max(squared + weak * weak, kLeastEcho);
+  float mirrored = sqrt(met.alpha * met.cosine) * squared / max(squared + weak * weak, kMinEcho);
   met.echo = vec2(scatterer_amplitude(here), behind.impedance < before.impedance ? -mirrored : mirrored);
 #else
   met.echo = scatterers_echo(k, here);
@@ -260,7 +260,7 @@ LogIntensity changed(LogIntensity log_intensity, float change) {
   return LogIntensity(value, excess);
 }
 
-bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kLeastLogIntensity; }
+bool is_heard(LogIntensity log_intensity) { return log_intensity.value > kMinLogIntensity; }
 
 // Stores a sample; the planes of the slice add up by their weights. Reverberation needs the middle plane alone: layers
 // that lie in different planes hold no sound between them.
@@ -284,14 +284,14 @@ void put(int slice_plane, int row, int k, vec4 value) {
 // Stores what a sample sends back of the intensity that arrives.
 void put(int slice_plane, int row, int k, Sample met, LogIntensity log_intensity) {
   float intensity = is_heard(log_intensity) ? exp(log_intensity.value) : 0.0;
-  float heard = intensity > kLeastIntensity ? intensity : 0.0;
+  float heard = intensity > kMinIntensity ? intensity : 0.0;
   float reflection = met.alpha * heard * heard * met.cosine;  // (3)
-  if (reflection < kLeastEcho) reflection = 0.0;
+  if (reflection < kMinEcho) reflection = 0.0;
 #if WAVES == 1
 #if TWO_WAY == 1
   float arriving = heard;
 #else
-  float arriving = intensity > kLeastEcho ? sqrt(intensity) : 0.0;
+  float arriving = intensity > kMinEcho ? sqrt(intensity) : 0.0;
 #endif
   float scattered_amplitude = blend_amplitude * met.echo.x * arriving;
   float mirrored = heard * met.echo.y, rough = kRoughShare * mirrored + scattered_amplitude;

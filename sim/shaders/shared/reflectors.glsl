@@ -23,7 +23,7 @@ Sum added(Sum sum, float term) {
 // Returns A and R of a sample.
 vec2 reflected(int k) {
   vec2 value = texelFetch(scan, row + k).xy;
-  return value.x > kLeastReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
+  return value.x > kMinReverberant ? vec2(min(value.y / (value.x * value.x), 1.0), value.y) : vec2(0.0);
 }
 
 // Returns c of the interface that sample k shows, in samples; its own place counts `own` besides.

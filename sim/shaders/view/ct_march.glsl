@@ -9,14 +9,14 @@
 #define POST_CLASSIFICATION 0  // the function at each sample
 #define PRE_INTEGRATED 1       // the mean of the function between one sample and the next (sim/view/body/transfer_function.h)
 
-// Per whole HU from kFirstTransferHu on, two texels: colour times extinction and extinction, 1/mm, and their integrals.
+// Per whole HU from kFirstTransfer_hu on, two texels: colour times extinction and extinction, 1/mm, and their integrals.
 layout(binding = 8) uniform samplerBuffer transfer;
 layout(binding = 9) uniform usampler3D cell_distance;  // cells to the nearest one where something can be visible
 #if STRUCTURES
 layout(binding = 11) uniform sampler3D structures;  // colour times coverage, coverage; on the voxels of the tissue texture
 #endif
 
-const float kFirstTransferHu = -1024.0, kLastTransferEntry = 4095.0;
+const float kFirstTransfer_hu = -1024.0, kLastTransferEntry = 4095.0;
 
 // Where two values are so close, the rounding of the integrals would show; the function changes little between them.
 const float kShortSpan_hu = 1.0;
@@ -31,7 +31,7 @@ const float kOutsideBody = 0.02, kWithinBody = 0.2;
 
 // Returns the function's value (which = 0) or integral (1) at a Hounsfield unit.
 vec4 transferred(float hu, int which) {
-  float entry = clamp(hu - kFirstTransferHu, 0.0, kLastTransferEntry);
+  float entry = clamp(hu - kFirstTransfer_hu, 0.0, kLastTransferEntry);
   int below = int(min(entry, kLastTransferEntry - 1.0));
   return mix(texelFetch(transfer, 2 * below + which), texelFetch(transfer, 2 * below + 2 + which), entry - float(below));
 }

@@ -29,7 +29,7 @@ Surroundings::Surroundings(const Volume<std::int16_t>& ct)
   VoxelField outside(depth_mm_.size);
   std::vector<glm::ivec3> reached;
   const auto reach = [&](const glm::ivec3& i) {
-    if (outside.at(i) > 0 || ct.at(i * step_) > kMostAirHu) return;
+    if (outside.at(i) > 0 || ct.at(i * step_) > kMaxAir_hu) return;
     outside.at(i) = 1;
     reached.push_back(i);
   };

@@ -12,7 +12,7 @@ namespace insonate::view {
 namespace {
 
 gl::Defines along(int axis) {
-  return {{"AXIS", std::to_string(axis)}, {"MOST_DISTANCE", std::to_string(kMostDistance)}};
+  return {{"AXIS", std::to_string(axis)}, {"MOST_DISTANCE", std::to_string(kMaxDistance)}};
 }
 
 gl::Texture cell_texture(const glm::ivec3& cells) {

@@ -21,7 +21,7 @@ void lower(std::uint8_t* row, const std::array<const std::uint8_t*, 4>& others, 
     const std::uint8_t b = std::uint8_t((a < least[x + 1] ? a : least[x + 1]) + 1);
     row[x] = b < row[x] ? b : row[x];
   }
-  int before = kMostDistance;
+  int before = kMaxDistance;
   for (int i = 0, x = step > 0 ? 0 : count - 1; i < count; ++i, x += step)
     row[x] = std::uint8_t(before = std::min(before + 1, int(row[x])));
 }
@@ -33,7 +33,7 @@ void lower(std::uint8_t* row, const std::array<const std::uint8_t*, 4>& others, 
 std::vector<std::uint8_t> distance_map(const glm::ivec3& size, const std::vector<std::uint8_t>& busy) {
   // With a layer of cells around the box that are as far as can be.
   const std::ptrdiff_t row = size.x + 2, plane = row * (size.y + 2);
-  std::vector<std::uint8_t> padded(std::size_t(plane) * std::size_t(size.z + 2), kMostDistance);
+  std::vector<std::uint8_t> padded(std::size_t(plane) * std::size_t(size.z + 2), kMaxDistance);
   std::vector<std::uint8_t> least(padded.begin(), padded.begin() + row);
   const auto cells_of = [&](int y, int z) { return padded.data() + (z + 1) * plane + (y + 1) * row + 1; };
   const auto offset_of = [&](int y, int z) {
@@ -42,7 +42,7 @@ std::vector<std::uint8_t> distance_map(const glm::ivec3& size, const std::vector
   for (int z = 0; z < size.z; ++z)
     for (int y = 0; y < size.y; ++y)
       std::transform(busy.begin() + offset_of(y, z), busy.begin() + offset_of(y, z) + size.x, cells_of(y, z),
-                     [](std::uint8_t is_busy) { return std::uint8_t(is_busy ? 0 : kMostDistance); });
+                     [](std::uint8_t is_busy) { return std::uint8_t(is_busy ? 0 : kMaxDistance); });
   for (const int step : {1, -1})
     for (int j = 0; j < size.z; ++j)
       for (int i = 0; i < size.y; ++i) {

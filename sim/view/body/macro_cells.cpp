@@ -30,7 +30,7 @@ MacroCells::MacroCells(const Volume<std::int16_t>& ct) : size_((ct.grid.size + k
               greatest = std::max(greatest, row[x]);
             }
           }
-        if (low != first || high != end) least = std::min(least, std::int16_t(kAirHu));
+        if (low != first || high != end) least = std::min(least, std::int16_t(kAir_hu));
         ranges_[cell] = {least, greatest};
       }
   });

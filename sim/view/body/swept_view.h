@@ -14,11 +14,11 @@ namespace insonate::view {
 
 /// What a person chooses about the volume rendering of a swept volume.
 struct SweptLook {
-  double threshold = 70;  ///< grey level from which tissue begins to show, 0 to kMostSweptThreshold
-  double opacity = 0.4;   ///< of 1 mm of tissue at white, 0 to kMostOpacity
+  double threshold = 70;  ///< grey level from which tissue begins to show, 0 to kMaxSweptThreshold
+  double opacity = 0.4;   ///< of 1 mm of tissue at white, 0 to kMaxOpacity
   bool operator==(const SweptLook&) const = default;
 };
-inline constexpr double kMostSweptThreshold = 200;
+inline constexpr double kMaxSweptThreshold = 200;
 
 /// Returns the look as a transfer function of the values of SweptView: dark red-brown at the threshold, through the
 /// amber of ultrasound machines, to near white, with opacity that rises linearly.

@@ -13,9 +13,9 @@ namespace {
 
 // Compact bone is above 300 HU, spongy bone from 100 to 300 HU. Enhanced vessels and kidneys stay below 200 HU in the
 // portal phase, in which abdomens are scanned.
-constexpr float kBoneFromHu = 180, kBoneFullHu = 320;
+constexpr float kBoneFrom_hu = 180, kBoneFull_hu = 320;
 // From air to fat. The skin is drawn at the middle, where a voxel is half full.
-constexpr float kBodyFromHu = -900, kBodyFullHu = -150;
+constexpr float kBodyFrom_hu = -900, kBodyFull_hu = -150;
 
 constexpr OrganColour kBone{{0.90f, 0.85f, 0.73f}, 0.9f};
 
@@ -39,10 +39,10 @@ void gather(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels, 
           const std::size_t v = ct.grid.offset({i, j, k});
           const float hu = ct.voxels[v];
           density += hu;
-          body += ramp(hu, kBodyFromHu, kBodyFullHu);
+          body += ramp(hu, kBodyFrom_hu, kBodyFull_hu);
           const OrganColour* look = labels.empty() ? nullptr : &colours[labels.voxels[v]];
           const bool labelled = look && look->opacity > 0;
-          const float share = labelled ? 1.0f : ramp(hu, kBoneFromHu, kBoneFullHu);
+          const float share = labelled ? 1.0f : ramp(hu, kBoneFrom_hu, kBoneFull_hu);
           if (!labelled) look = &kBone;
           colour += share * look->colour;
           coverage += share;

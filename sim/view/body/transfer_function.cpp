@@ -9,7 +9,7 @@ namespace insonate::view {
 namespace {
 
 double position_of(double hu) {
-  return std::clamp(hu - kFirstTransferHu, 0.0, double(TransferTable::kEntries - 1));
+  return std::clamp(hu - kFirstTransfer_hu, 0.0, double(TransferTable::kEntries - 1));
 }
 
 glm::dvec4 interpolated(const std::vector<glm::vec4>& entries, double position) {
@@ -39,8 +39,8 @@ TransferFunction TransferFunction::moved(double shift_hu, double scale) const {
   if (points.empty()) return moved;
   const double centre = (points.front().hu + points.back().hu) / 2;
   for (TransferPoint& point : moved.points)
-    point.hu =
-        std::clamp(centre + (point.hu - centre) * scale + shift_hu, double(kFirstTransferHu), double(kLastTransferHu));
+    point.hu = std::clamp(centre + (point.hu - centre) * scale + shift_hu, double(kFirstTransfer_hu),
+                          double(kLastTransfer_hu));
   return moved;
 }
 
@@ -49,8 +49,8 @@ TransferTable::TransferTable(const TransferFunction& function) {
   integrals.reserve(kEntries);
   glm::dvec4 sum(0.0);
   for (int entry = 0; entry < kEntries; ++entry) {
-    const TransferPoint point = function.at(kFirstTransferHu + entry);
-    const double extinction = -std::log1p(-std::clamp(point.opacity, 0.0, kMostOpacity));
+    const TransferPoint point = function.at(kFirstTransfer_hu + entry);
+    const double extinction = -std::log1p(-std::clamp(point.opacity, 0.0, kMaxOpacity));
     const glm::vec4 value(glm::dvec4(point.colour, 1.0) * extinction);
     if (entry > 0) sum += 0.5 * (glm::dvec4(values.back()) + glm::dvec4(value));
     values.push_back(value);
@@ -75,7 +75,7 @@ VisibleRanges::VisibleRanges(const TransferTable& table) {
 }
 
 bool VisibleRanges::shows(int low, int high) const {
-  const auto entry = [](int hu) { return std::clamp(hu - kFirstTransferHu, 0, TransferTable::kEntries - 1); };
+  const auto entry = [](int hu) { return std::clamp(hu - kFirstTransfer_hu, 0, TransferTable::kEntries - 1); };
   return visible_below_[std::size_t(entry(high + 1)) + 1] > visible_below_[std::size_t(entry(low - 1))];
 }
 

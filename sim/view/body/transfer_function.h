@@ -9,16 +9,16 @@
 namespace insonate::view {
 
 /// The range of a transfer function, in Hounsfield units: what 12 bits of a CT can store.
-inline constexpr int kFirstTransferHu = -1024, kLastTransferHu = 3071;
+inline constexpr int kFirstTransfer_hu = -1024, kLastTransfer_hu = 3071;
 
 /// The greatest opacity of a point. Full opacity of 1 mm would need infinite extinction.
-inline constexpr double kMostOpacity = 0.995;
+inline constexpr double kMaxOpacity = 0.995;
 
 /// A corner of a transfer function.
 struct TransferPoint {
-  double hu = 0;           ///< kFirstTransferHu to kLastTransferHu
+  double hu = 0;           ///< kFirstTransfer_hu to kLastTransfer_hu
   glm::dvec3 colour{1.0};  ///< sRGB, 0 to 1
-  double opacity = 0;      ///< of 1 mm of tissue, 0 to kMostOpacity
+  double opacity = 0;      ///< of 1 mm of tissue, 0 to kMaxOpacity
   bool operator==(const TransferPoint&) const = default;
 };
 
@@ -49,10 +49,10 @@ struct TransferFunction {
 /// Kraus, Ertl 2001, "High-Quality Pre-Integrated Volume Rendering"). Nothing has to be recomputed while a function is
 /// edited. The attenuation within one segment is that of its mean, so a segment's colours are not in order of depth.
 struct TransferTable {
-  static constexpr int kEntries = kLastTransferHu - kFirstTransferHu + 1;
+  static constexpr int kEntries = kLastTransfer_hu - kFirstTransfer_hu + 1;
 
-  std::vector<glm::vec4> values;  ///< per whole HU from kFirstTransferHu on: colour times extinction, extinction, 1/mm
-  std::vector<glm::vec4> integrals;  ///< of `values` over HU, from kFirstTransferHu on
+  std::vector<glm::vec4> values;  ///< per whole HU from kFirstTransfer_hu on: colour times extinction, extinction, 1/mm
+  std::vector<glm::vec4> integrals;  ///< of `values` over HU, from kFirstTransfer_hu on
 
   explicit TransferTable(const TransferFunction& function);
 

@@ -19,11 +19,11 @@ TransferFunction read_transfer_function(const fs::path& toml_file) {
   const TomlTable root = document.root();
   TransferFunction function;
   function.name = root.text("name");
-  for (const TomlTable& table : root.tables("point", kMostTransferPoints, "point")) {
+  for (const TomlTable& table : root.tables("point", kMaxTransferPoints, "point")) {
     TransferPoint point;
-    point.hu = table.number("hu", {kFirstTransferHu, kLastTransferHu});
+    point.hu = table.number("hu", {kFirstTransfer_hu, kLastTransfer_hu});
     point.colour = table.vector("colour", {0, 1});
-    point.opacity = table.number("opacity", {0, kMostOpacity});
+    point.opacity = table.number("opacity", {0, kMaxOpacity});
     if (!function.points.empty() && point.hu <= function.points.back().hu)
       table.report("hu", "'hu' is not above that of the point before", "put the points in the order of rising hu");
     function.points.push_back(point);

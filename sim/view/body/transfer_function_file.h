@@ -16,10 +16,10 @@ namespace insonate::view {
 ///     colour = [0.86, 0.72, 0.60]  # sRGB, 0 to 1
 ///     opacity = 0                  # of 1 mm of tissue, 0 to 0.995
 ///
-/// A function has 2 to kMostTransferPoints points. Throws one InputError that names every mistake with its line.
+/// A function has 2 to kMaxTransferPoints points. Throws one InputError that names every mistake with its line.
 TransferFunction read_transfer_function(const std::filesystem::path& toml_file);
 
-inline constexpr std::size_t kMostTransferPoints = 64;
+inline constexpr std::size_t kMaxTransferPoints = 64;
 
 /// Writes a function so that read_transfer_function() returns the same. Throws InputError if the file cannot be
 /// written.

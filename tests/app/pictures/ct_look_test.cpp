@@ -19,7 +19,7 @@ TEST_CASE("wide windows change faster, and narrow ones by single units") {
 }
 
 TEST_CASE("window and level stay within what a CT has") {
-  CHECK(dragged({150, 60}, {-1000, 0}).window_hu == WindowLevel::kLeastWindow);
-  CHECK(dragged({3000, 60}, {10000, 10000}) == WindowLevel{WindowLevel::kMostWindow, WindowLevel::kLeastLevel});
-  CHECK(dragged({3000, 60}, {0, -10000}).level_hu == WindowLevel::kMostLevel);
+  CHECK(dragged({150, 60}, {-1000, 0}).window_hu == WindowLevel::kMinWindow);
+  CHECK(dragged({3000, 60}, {10000, 10000}) == WindowLevel{WindowLevel::kMaxWindow, WindowLevel::kMinLevel});
+  CHECK(dragged({3000, 60}, {0, -10000}).level_hu == WindowLevel::kMaxLevel);
 }

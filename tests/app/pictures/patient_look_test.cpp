@@ -20,7 +20,7 @@ Volume<std::int16_t> small_ct() {
 
 }  // namespace
 
-TEST_CASE("A look begins with surfaces, and what is chosen and edited is shown") {
+TEST_CASE("a look begins with surfaces, and what is chosen and edited is shown") {
   PatientLook look;
   CHECK(!look.shown());
   CHECK(!look.is_edited());
@@ -35,19 +35,19 @@ TEST_CASE("A look begins with surfaces, and what is chosen and edited is shown")
   CHECK(!look.is_edited());
 }
 
-TEST_CASE("A point stays between its neighbours and within the opacity that a file may have") {
+TEST_CASE("a point stays between its neighbours and within the opacity that a file may have") {
   PatientLook look;
   look.choose(0);
   const double before = look.shown()->points[0].hu, after = look.shown()->points[2].hu;
   look.move_point(1, 3000, 2);
   CHECK(look.shown()->points[1].hu == after - 1);
-  CHECK(look.shown()->points[1].opacity == view::kMostOpacity);
+  CHECK(look.shown()->points[1].opacity == view::kMaxOpacity);
   look.move_point(1, -3000, -1);
   CHECK(look.shown()->points[1].hu == before + 1);
   CHECK(look.shown()->points[1].opacity == 0);
 }
 
-TEST_CASE("Points are added with the colour of their place, and two always stay") {
+TEST_CASE("points are added with the colour of their place, and two always stay") {
   PatientLook look;
   look.choose(0);
   const glm::dvec3 colour = look.shown()->at(-300).colour;
@@ -59,10 +59,10 @@ TEST_CASE("Points are added with the colour of their place, and two always stay"
   for (int i = 0; i < 10; ++i) look.remove_point(0);
   CHECK(look.shown()->points.size() == 2);
   for (int i = 0; i < 100; ++i) look.add_point(-500 + 7 * i, 0);
-  CHECK(look.shown()->points.size() == view::kMostTransferPoints);
+  CHECK(look.shown()->points.size() == view::kMaxTransferPoints);
 }
 
-TEST_CASE("Shift and scale move all points from where they were edited last") {
+TEST_CASE("shift and scale move all points from where they were edited last") {
   PatientLook look;
   look.choose(4);
   const view::TransferFunction bones = *look.shown();
@@ -75,7 +75,7 @@ TEST_CASE("Shift and scale move all points from where they were edited last") {
   CHECK(look.shown() == bones);
 }
 
-TEST_CASE("A saved look is offered from then on, also to the next start, and leaves the bundled one as it was") {
+TEST_CASE("a saved look is offered from then on, also to the next start, and leaves the bundled one as it was") {
   const TemporaryFolder home;
   const std::filesystem::path folder = home.path / "looks";
   PatientLook look;
@@ -98,7 +98,7 @@ TEST_CASE("A saved look is offered from then on, also to the next start, and lea
   CHECK(next.offered().back().points == edited.points);
 }
 
-TEST_CASE("A look from a file is saved to that file, and names in another script get files of their own") {
+TEST_CASE("a look from a file is saved to that file, and names in another script get files of their own") {
   const TemporaryFolder home;
   const std::filesystem::path first = home.path / "mine.toml";
   view::write_transfer_function(first, {"\u9aa8", {{0, {}, 0}, {100, {}, 0.5}}});
@@ -117,7 +117,7 @@ TEST_CASE("A look from a file is saved to that file, and names in another script
                     [](const auto& offered) { return offered.name == "\u9aa8" && offered.points[1].hu == 200; }));
 }
 
-TEST_CASE("A file in the person's folder that cannot be used is reported, and the others are offered") {
+TEST_CASE("a file in the person's folder that cannot be used is reported, and the others are offered") {
   const TemporaryFolder home;
   home.put("a.toml", "name = \"A\"\n");
   view::write_transfer_function(home.path / "b.toml", {"B", {{0, {}, 0}, {1, {}, 0.5}}});
@@ -128,7 +128,7 @@ TEST_CASE("A file in the person's folder that cannot be used is reported, and th
   CHECK(look.offered().back().name == "B");
 }
 
-TEST_CASE("Each patient is shown again as they were left") {
+TEST_CASE("each patient is shown again as they were left") {
   const TemporaryFolder home;
   {
     PatientLook look;
@@ -153,18 +153,18 @@ TEST_CASE("Each patient is shown again as they were left") {
   CHECK(!look.shown());
 }
 
-TEST_CASE("The histogram has its peaks where the CT's values are") {
+TEST_CASE("the histogram has its peaks where the CT's values are") {
   PatientLook look;
   look.begin("Anna", small_ct());
   const auto at = [&](int hu) {
-    return look.histogram()[std::size_t((hu - view::kFirstTransferHu) / PatientLook::kBinHu)];
+    return look.histogram()[std::size_t((hu - view::kFirstTransfer_hu) / PatientLook::kBin_hu)];
   };
   CHECK(at(40) > 0.9);
   CHECK(at(-1000) > 0.9);
   CHECK(at(500) == 0);
 }
 
-TEST_CASE("A look offers the structures that have a colour, bones last, and each is switched by itself") {
+TEST_CASE("a look offers the structures that have a colour, bones last, and each is switched by itself") {
   PatientLook look;
   const std::vector<Label> labels{{1, "skin", "skin"},
                                   {2, "rib_left_7", "bone"},

@@ -40,7 +40,7 @@ TEST_CASE("a machine that cannot keep up draws fewer pixels while the picture mo
   run.move(30, 0.08);
   const double of_motion = run.governor.quality();
   CHECK(of_motion < 1);
-  CHECK(of_motion >= QualityGovernor::kLeast);
+  CHECK(of_motion >= QualityGovernor::kMin);
 
   CHECK(run.rest(5) == 1);
   CHECK(run.governor.quality() == 1);
@@ -48,11 +48,11 @@ TEST_CASE("a machine that cannot keep up draws fewer pixels while the picture mo
   CHECK(run.governor.quality() == of_motion);
 
   run.move(1000, 0.08);
-  CHECK(run.governor.quality() == QualityGovernor::kLeast);
+  CHECK(run.governor.quality() == QualityGovernor::kMin);
   // Where a frame takes longer than a picture has to stand still for.
   run.rest(5);
   run.move(2, 3 * QualityGovernor::kRest_s);
-  CHECK(run.governor.quality() == QualityGovernor::kLeast);
+  CHECK(run.governor.quality() == QualityGovernor::kMin);
 }
 
 TEST_CASE("a picture that comes alone is drawn in full, however slow the machine") {
@@ -100,7 +100,7 @@ TEST_CASE("the views beside the ultrasound give way first, and within half a sec
 TEST_CASE("a machine that can keep up again draws all pixels again, and one at its limit does not waver") {
   Run run;
   run.move(1000, 0.08);
-  REQUIRE(run.governor.quality() == QualityGovernor::kLeast);
+  REQUIRE(run.governor.quality() == QualityGovernor::kMin);
   run.move(1000, 0.02);
   CHECK(run.governor.quality() == 1);
 

@@ -46,7 +46,7 @@ int voxel(const Volume<std::uint8_t>& volume, const glm::dvec3& patient_mm) {
 
 }  // namespace
 
-TEST_CASE("A sweep's live pictures become a volume at their places in the patient") {
+TEST_CASE("a sweep's live pictures become a volume at their places in the patient") {
   SweepRecorder recorder;
   CHECK_FALSE(recorder.take_finished());
   recorder.start();
@@ -66,7 +66,7 @@ TEST_CASE("A sweep's live pictures become a volume at their places in the patien
   CHECK(voxel(swept->volume.known, {0, -20, 10}) <= 0);  // behind the face there is no fan
 }
 
-TEST_CASE("Frozen pictures and those of another attempt are not part of a sweep") {
+TEST_CASE("frozen pictures and those of another attempt are not part of a sweep") {
   SweepRecorder recorder;
   recorder.take(picture_at(0, 1));
   CHECK(recorder.quality().pictures == 0);
@@ -88,7 +88,7 @@ TEST_CASE("Frozen pictures and those of another attempt are not part of a sweep"
   CHECK(voxel(swept->volume.known, {0, 40, 50}) <= 0);
 }
 
-TEST_CASE("A sweep that was too fast says so, and its gap is not filled") {
+TEST_CASE("a sweep that was too fast says so, and its gap is not filled") {
   SweepRecorder recorder;
   recorder.start();
   for (int n = 0; n <= 10; ++n) recorder.take(picture_at(n + (n > 5 ? 9 : 0), 0.05 * n));
@@ -100,7 +100,7 @@ TEST_CASE("A sweep that was too fast says so, and its gap is not filled") {
   CHECK(voxel(swept->volume.known, {0, 40, 3}) > 0);
 }
 
-TEST_CASE("A sweep without pictures is refused in a sentence, and the next one works") {
+TEST_CASE("a sweep without pictures is refused in a sentence, and the next one works") {
   SweepRecorder recorder;
   recorder.start();
   recorder.stop();
@@ -112,13 +112,13 @@ TEST_CASE("A sweep without pictures is refused in a sentence, and the next one w
   CHECK(finished(recorder));
 }
 
-TEST_CASE("A recorder that is destroyed in the middle of a sweep drops it") {
+TEST_CASE("a recorder that is destroyed in the middle of a sweep drops it") {
   SweepRecorder recorder;
   recorder.start();
   for (int n = 0; n < 5; ++n) recorder.take(picture_at(n, n));
 }
 
-TEST_CASE("A swept volume reads back from its files as it was") {
+TEST_CASE("a swept volume reads back from its files as it was") {
   const TemporaryFolder temporary;
   const fs::path& folder = temporary.path;
   SweepRecorder recorder;

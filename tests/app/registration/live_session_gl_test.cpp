@@ -25,8 +25,8 @@ using Catch::Contains;
 
 namespace {
 
-constexpr double kDepthMm = 100;
-constexpr double kWithin_mm = 2;  // voxels are 1.3 to 2.1 mm large, as in tests/alignment
+constexpr double kDepth_mm = 100;
+constexpr double kWithin_mm = 2;  // voxels are 1.3 to 2.1 mm large, as in tests/registration
 
 struct Patient {
   AcousticVolume volume = test::test_body();
@@ -37,7 +37,7 @@ struct Patient {
     subject.ct.grid = volume.grid;
     for (const AcousticVoxel& voxel : volume.voxels) subject.ct.voxels.push_back(voxel.hu);
     const test::TestContext context;
-    scan = test::make_scan(volume, test::tissues(), *find_probe("curvilinear"), kDepthMm,
+    scan = test::make_scan(volume, test::tissues(), *find_probe("curvilinear"), kDepth_mm,
                            hand_sweep(test::on_the_skin(0, 6, 0), 40, 14, 18), 240, 180);
   }
 };
@@ -52,7 +52,7 @@ LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
   request.tracker = player.uri();
   request.input.file = request.tracker;
   request.input.probe = *find_probe("curvilinear");
-  request.input.depth_mm = kDepthMm;
+  request.input.depth_mm = kDepth_mm;
   request.input.probe_from_pixel = patient().scan.probe_from_pixel;
   request.start = start;
   request.gives_way = false;
@@ -172,13 +172,13 @@ TEST_CASE("the first round with all its images looks around a start that is near
   const glm::dmat4 start = test::start_off_by(scan, {3, -2, 2}, 4);
   SweepInput input;
   input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepthMm;
+  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.wide_slices = 8;
   settings.slices = 20;
   const std::size_t last = scan.images.size() - 1;
   for (const std::size_t first : {26, 34, 42, 62, 64, 68}) {
-    LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, start, settings, false, false,
+    LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, start, {settings, false, false},
                             [](const TrackedSweep&, const glm::dmat4&) {});
     registrar.refine(false);
     for (std::size_t n = 0; n < 20; ++n) {
@@ -197,13 +197,13 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   const test::Scan& scan = patient().scan;
   SweepInput input;
   input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepthMm;
+  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.search_mm = 12;
   settings.search_deg = 10;
   settings.slices = 20;
   const glm::dmat4 start = test::start_off_by(scan, {4, -2, 2}, 4);
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, start, settings, false, true,
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, start, {settings, false, true},
                           [](const TrackedSweep&, const glm::dmat4&) {});
   const auto add = [&](std::size_t at, double shown) {
     Image<std::uint8_t> image = scan.images[at];
@@ -224,11 +224,11 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   for (std::size_t n = 0; n + 1 < enough; ++n) add(n * (scan.images.size() - 1) / (enough - 1), 0.2);
   const LiveRegistrar::State few = waits();
   CHECK(few.in_use == enough - 1);
-  CHECK(few.spread_mm > kLeastSpread_mm);
+  CHECK(few.spread_mm > kMinSpread_mm);
   for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % enough, 0.2);
   const LiveRegistrar::State close = waits();
   CHECK(close.in_use == enough);
-  CHECK(close.spread_mm < kLeastSpread_mm);
+  CHECK(close.spread_mm < kMinSpread_mm);
   registrar.refine(true);
   for (std::size_t n = 0; n < enough; ++n) add(n * (scan.images.size() - 1) / (enough - 1), 0.2);
   wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
@@ -241,7 +241,7 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   // The search has told the place from others, so that later rounds may have images that lie close together.
   for (std::size_t n = 0; n < SweepWindow::kKept; ++n) add(n % enough, 1);
   wait_until(registrar,
-             [&](const LiveRegistrar::State& state) { return spread_mm(state.last->sweep) < kLeastSpread_mm; });
+             [&](const LiveRegistrar::State& state) { return spread_mm(state.last->sweep) < kMinSpread_mm; });
   for (const std::string& doubt : registrar.state().last->found.doubts) CHECK(doubt != kTooClose);
 }
 
@@ -249,13 +249,13 @@ TEST_CASE("a wide search that is asked for begins when the images can tell one p
   const test::Scan& scan = patient().scan;
   SweepInput input;
   input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepthMm;
+  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.search_mm = settings.search_deg = 12;
   settings.scattered = 300;
   settings.slices = 20;
   std::atomic<bool> leaves_out{true};
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, scan.ct_from_tracker, settings, false, false,
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, scan.ct_from_tracker, {settings, false, false},
                           [&](TrackedSweep& sweep, const glm::dmat4&) {
                             if (leaves_out) std::ranges::fill(sweep.images, SweepImage(sweep.images.front()));
                           });
@@ -286,13 +286,13 @@ TEST_CASE("a wide search that the images do not suffice for waits for other imag
   const test::Scan& scan = patient().scan;
   SweepInput input;
   input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepthMm;
+  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.search_mm = settings.search_deg = 12;
   settings.scattered = 300;
   settings.slices = 20;
   std::atomic<int> asked{0};
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepthMm, scan.ct_from_tracker, settings, false, false,
+  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, scan.ct_from_tracker, {settings, false, false},
                           [&](const TrackedSweep&, const glm::dmat4&) {
                             if (++asked < 3) throw InputError("images", "", "they show nothing", "take others");
                           });
@@ -328,7 +328,7 @@ TEST_CASE("images that carry their own place are registered, with the probe that
   REQUIRE(live.session.fan());
   // A pixel is 0.7 mm large.
   CHECK(live.session.fan()->probe.radius_mm == Approx(60).margin(1.5));
-  CHECK(live.session.depth_mm() == Approx(kDepthMm).margin(1));
+  CHECK(live.session.depth_mm() == Approx(kDepth_mm).margin(1));
 }
 
 TEST_CASE("what lies where the CT cuts the body is not compared while the probe moves either") {
@@ -350,7 +350,7 @@ TEST_CASE("what lies where the CT cuts the body is not compared while the probe 
     std::size_t known = 0;
     double lowest_mm = 1000;
     for (const SweepImage& image : last->sweep.images) {
-      const ImageGeometry geometry = image_geometry(probe, kDepthMm, image.grey.width, image.grey.height);
+      const ImageGeometry geometry = image_geometry(probe, kDepth_mm, image.grey.width, image.grey.height);
       for (int y = 0; y < geometry.height; ++y)
         for (int x = 0; x < geometry.width; ++x)
           if (!std::isnan(image.grey.at(x, y))) {

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "devices/igtl/igtl_server.h"
-#include "sim/alignment/motion.h"
-#include "sim/alignment/synthetic_sweep.h"
-#include "sim/alignment/tracked_sweep.h"
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 #include "sim/reconstruction/tracked_picture.h"
+#include "sim/registration/motion.h"
+#include "sim/registration/synthetic_sweep.h"
+#include "sim/registration/tracked_sweep.h"
 
 namespace insonate::test {
 

@@ -196,7 +196,7 @@ TEST_CASE("undo goes back one thing at a time, and clear takes back all, for the
   CHECK(desk.session->runner()->live().hold_share == 0);
 }
 
-TEST_CASE("a step's calipers may lie in several pictures, and what counts nowhere goes with its picture") {
+TEST_CASE("a step's calipers may lie in several pictures, and one that no step uses goes with its picture") {
   Desk desk(kVolume);
   desk.freeze();
   desk.click(0, 40);
@@ -297,5 +297,5 @@ TEST_CASE("a slot that the step does not ask for, as a log may have it, is named
   Desk desk(kEllipse);
   desk.freeze();
   CHECK(desk.tools.slot_name(1) == "Area");
-  for (int slot = 2; slot <= Action::kMostSlots; ++slot) CHECK(desk.tools.slot_name(slot) == "Area");
+  for (int slot = 2; slot <= Action::kMaxSlots; ++slot) CHECK(desk.tools.slot_name(slot) == "Area");
 }

@@ -88,7 +88,7 @@ TEST_CASE("a CT that the device cannot hold is reported, and the patient on the 
   GLint limit = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit);
 
-  if (std::uint64_t(limit) >= kMostVoxelsASide) {
+  if (std::uint64_t(limit) >= kMaxVoxelsPerSide) {
     WARN("this device takes every CT that a file may hold");
     return;
   }

@@ -72,7 +72,7 @@ TEST_CASE("landmarks without error give the very motion, whatever it is") {
 }
 
 TEST_CASE("errors at the target are the published ones, and the held-out landmark, not the residual, shows them") {
-  constexpr double kErrorMm = 2;  // RMS length, as DEVICES counts it
+  constexpr double kError_mm = 2;  // RMS length, as DEVICES counts it
   constexpr int kRuns = 1500;
   struct {
     std::size_t landmarks;
@@ -84,7 +84,7 @@ TEST_CASE("errors at the target are the published ones, and the held-out landmar
     for (int run = 0; run < kRuns; ++run) {
       Dice dice(std::uint32_t(1000 * row.landmarks + std::size_t(run)));
       const Pose touched_from_ct = dice.pose(500);
-      const auto pairs = touched(landmarks(row.landmarks), touched_from_ct, dice, kErrorMm);
+      const auto pairs = touched(landmarks(row.landmarks), touched_from_ct, dice, kError_mm);
       const auto found = register_landmarks(pairs);
       REQUIRE(found);
       double error2 = 0;
@@ -97,15 +97,15 @@ TEST_CASE("errors at the target are the published ones, and the held-out landmar
       sum_residual2 += std::pow(found->residual_mm, 2), sum_error2 += error2;
     }
     for (const glm::dvec3& target : kTargets)
-      expected += std::pow(expected_error_mm(landmarks(row.landmarks), target, kErrorMm), 2) / 4;
+      expected += std::pow(expected_error_mm(landmarks(row.landmarks), target, kError_mm), 2) / 4;
     CAPTURE(row.landmarks, std::sqrt(squares), std::sqrt(expected), std::sqrt(estimated));
     CHECK(std::sqrt(squares) >= row.least_mm);
     CHECK(std::sqrt(squares) <= row.most_mm);
     // The formula is of first order and takes the axes along x, y and z; 1500 runs know the RMS to 2 %.
     CHECK(std::sqrt(squares) == Approx(std::sqrt(expected)).epsilon(0.08));
     // The check's error is the target's there and its own localisation error.
-    const double there = expected_error_mm(landmarks(row.landmarks), kTrunk.back(), kErrorMm);
-    CHECK(std::sqrt(estimated) == Approx(std::hypot(there, kErrorMm)).epsilon(0.06));
+    const double there = expected_error_mm(landmarks(row.landmarks), kTrunk.back(), kError_mm);
+    CHECK(std::sqrt(estimated) == Approx(std::hypot(there, kError_mm)).epsilon(0.06));
     // Fitzpatrick 2009: uncorrelated. 1500 runs know a correlation to 0.026; four times that.
     const double n = kRuns;
     const double correlation =

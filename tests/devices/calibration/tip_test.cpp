@@ -28,12 +28,12 @@ TEST_CASE("the tip of a probe that pivots without noise is found to rounding err
 }
 
 TEST_CASE("noise moves the tip by what the fit says, and the residual is the noise") {
-  constexpr double kNoiseMm = 0.3;  // along each axis
+  constexpr double kNoise_mm = 0.3;  // along each axis
   constexpr int kRuns = 60;
   double squares = 0, reported = 0, residual = 0;
   for (int run = 0; run < kRuns; ++run) {
     Dice dice(std::uint32_t(100 + run));
-    const auto fit = fit_tip(pivoting_well(dice, kNoiseMm));
+    const auto fit = fit_tip(pivoting_well(dice, kNoise_mm));
     REQUIRE(fit);
     squares += std::pow(glm::distance(fit->tip_mm, kTip), 2) / kRuns;
     reported += fit->tip_sd_mm / kRuns;
@@ -44,7 +44,7 @@ TEST_CASE("noise moves the tip by what the fit says, and the residual is the noi
   CHECK(std::sqrt(squares) < 1.1 * std::sqrt(3.0) * reported);
   CHECK(std::sqrt(squares) < 0.06);
   // RMS length of a noise of 0.3 mm an axis is 0.52; the cut at 99 % takes 4 % off.
-  CHECK(residual == Approx(std::sqrt(3.0) * kNoiseMm).epsilon(0.06));
+  CHECK(residual == Approx(std::sqrt(3.0) * kNoise_mm).epsilon(0.06));
 }
 
 TEST_CASE("a third of the poses may be anything, and the tip stays") {

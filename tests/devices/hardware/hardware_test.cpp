@@ -285,7 +285,7 @@ TEST_CASE("a Polhemus sensor that is missing is reported with those that are, an
   bench.source.open();
   bench.bus->reports = {{'o', 'k', '\r'}, liberty_record(1, 5, 0), liberty_record(4, 5, 0)};
   CHECK(bench.read_all().note.empty());
-  bench.now_s += PolhemusSource::kSensorMissingS + 0.1;
+  bench.now_s += PolhemusSource::kSensorMissing_s + 0.1;
   bench.bus->reports = {liberty_record(1, 6, 0)};
   CHECK(bench.read_all().note ==
         "The Polhemus tracker sends sensor 1, 4 but not sensor 3: plug that in, or follow another, as in "
@@ -375,8 +375,8 @@ TEST_CASE("a SpaceMouse whose cap is held down for minutes keeps the probe withi
     }
     return glm::distance(last, kStart.translation);
   };
-  CHECK(held(3000, {1, 0, 0, 0, 0, 94, 1}) == Approx(SpaceMouseSource::kRangeMm));
-  CHECK(held(20, {1, 0, 0, 0, 0, 0xa2, 0xfe}) < SpaceMouseSource::kRangeMm - 500);
+  CHECK(held(3000, {1, 0, 0, 0, 0, 94, 1}) == Approx(SpaceMouseSource::kRange_mm));
+  CHECK(held(20, {1, 0, 0, 0, 0, 0xa2, 0xfe}) < SpaceMouseSource::kRange_mm - 500);
 }
 
 TEST_CASE("an OSVR tracker turns the probe on the spot") {

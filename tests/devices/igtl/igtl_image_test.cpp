@@ -126,11 +126,11 @@ TEST_CASE("a reader that is made for images stores up to its bound, and passes o
     CHECK(reader.feed(make_message("IMAGE", "Ultrasound", 1, Bytes(bytes, 7))) == MessageReader::Damage::none);
     return stored;
   };
-  CHECK(read(100000, MessageReader::kMostKept) == 0);
-  CHECK(read(100000, MessageReader::kMostKeptWithImages) == 100000);
-  CHECK(read(MessageReader::kMostKeptWithImages, MessageReader::kMostKeptWithImages) ==
-        MessageReader::kMostKeptWithImages);
-  CHECK(read(MessageReader::kMostKeptWithImages + 1, MessageReader::kMostKeptWithImages) == 0);
+  CHECK(read(100000, MessageReader::kMaxKept) == 0);
+  CHECK(read(100000, MessageReader::kMaxKeptWithImages) == 100000);
+  CHECK(read(MessageReader::kMaxKeptWithImages, MessageReader::kMaxKeptWithImages) ==
+        MessageReader::kMaxKeptWithImages);
+  CHECK(read(MessageReader::kMaxKeptWithImages + 1, MessageReader::kMaxKeptWithImages) == 0);
 }
 
 }  // namespace insonate::igtl

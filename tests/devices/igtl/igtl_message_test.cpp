@@ -154,7 +154,7 @@ TEST_CASE("a message that is cut short brings nothing, and one with any bit of i
 }
 
 TEST_CASE("bodies that nobody wants or that are too large are passed over, and the next message is read") {
-  Bytes stream = make_message("IMAGE", "large", 1, Bytes(MessageReader::kMostKept + 1, 7));
+  Bytes stream = make_message("IMAGE", "large", 1, Bytes(MessageReader::kMaxKept + 1, 7));
   for (const Bytes& next : {make_message("POINT", "unwanted", 1, Bytes(99, 1)), make_message("GET_STATUS", "", 0, {}),
                             make_transform("ProbeToTracker", 5, kPose)})
     stream.insert(stream.end(), next.begin(), next.end());
@@ -182,7 +182,7 @@ TEST_CASE("a stream of anything else is distinguished from OpenIGTLink") {
   const std::string web = "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain; charset=utf-8\r\n\r\n";
   CHECK(reader.feed({reinterpret_cast<const std::uint8_t*>(web.data()), web.size()}) ==
         MessageReader::Damage::not_igtl);
-  for (const std::uint64_t size : {MessageReader::kMostPassed + 1, ~std::uint64_t(0)}) {
+  for (const std::uint64_t size : {MessageReader::kMaxPassed + 1, ~std::uint64_t(0)}) {
     Bytes message = make_transform("ProbeToTracker", 5, kPose);
     for (std::size_t i = 0; i < 8; ++i) message[42 + i] = std::uint8_t(size >> (56 - 8 * i));
     MessageReader fresh([](const Header&) { return true; }, [](const Header&, ByteView) { FAIL("no message"); });

@@ -15,7 +15,7 @@ struct Seen {
 };
 
 void parse_all(const Header& header, ByteView body, Seen& seen) {
-  if (body.size() > MessageReader::kMostKept) seen.broken = "a body is longer than any that is kept";
+  if (body.size() > MessageReader::kMaxKept) seen.broken = "a body is longer than any that is kept";
   if (body.size() != header.body_bytes) seen.broken = "a body is not as long as its header says";
   if (crc64(body) != header.crc) seen.broken = "a body with a wrong CRC came through";
   const auto parts = parts_of(header, body);

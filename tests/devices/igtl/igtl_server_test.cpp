@@ -215,7 +215,7 @@ TEST_CASE("a message that is not OpenIGTLink, or claims more than any message ha
   INFO("a claim that a message can have is believed, and takes no memory");
   timed.server.forget(Server::Stream::pose);
   RawPeer peer = RawPeer::connected_to(timed.server.address());
-  Bytes begun = header_claiming(MessageReader::kMostPassed);
+  Bytes begun = header_claiming(MessageReader::kMaxPassed);
   begun.resize(100'000);
   peer.send(begun);
   timed.turn();

@@ -61,7 +61,7 @@ TEST_CASE("a clock that drifts either way is followed within the tolerance, and 
       const double sent_s = now_s * (1 + drift);
       const double time_s = clock.time_of(sent_s, now_s + 0.002);
       // The tolerance, and what the clock drifts in a window and a bit.
-      CHECK(std::abs(time_s - (now_s + 0.002)) <= 0.010 + 2 * SenderClock::kWindowS * std::abs(drift) + 1e-9);
+      CHECK(std::abs(time_s - (now_s + 0.002)) <= 0.010 + 2 * SenderClock::kWindow_s * std::abs(drift) + 1e-9);
     }
   }
   SenderClock clock;

@@ -163,7 +163,7 @@ TEST_CASE("a stream that lacks something says what, in a sentence") {
     served.peer->send(make_message("IMAGE", "Image", 1, body));
     served.wait_for([&] { return !served.stream.problem().empty(); });
     said(served, "has 47 bytes for 8 x 6 x 1 pixels of 1.");
-    served.peer->send(make_message("IMAGE", "Image", 1, Bytes(MessageReader::kMostKeptWithImages + 1, 7)));
+    served.peer->send(make_message("IMAGE", "Image", 1, Bytes(MessageReader::kMaxKeptWithImages + 1, 7)));
     served.wait_for([&] { return served.stream.problem().find("16 MiB") != std::string::npos; });
     said(served, "has more than 16 MiB.");
   }

@@ -109,7 +109,7 @@ TEST_CASE("a patient who lies on the back is not looked at from there, nor throu
   const auto closed = best_across(trunk(0, 0));
   const auto from_behind = best_across(trunk(180, 35));
   for (const auto& window : {closed, from_behind})
-    if (window) CHECK(window->clear_share < kLeastClear);
+    if (window) CHECK(window->clear_share < kMinClear);
 }
 
 TEST_CASE("where the CT ends within the body there is no skin") {

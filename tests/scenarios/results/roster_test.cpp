@@ -49,7 +49,7 @@ TEST_CASE("a roster with anything but ids is refused with the line") {
   refused("r.csv", "learner\n", "lists no learners");
   refused("r.csv", std::string("learner\nL\0\x01\n", 12), "line 2");
   std::string many = "learner\n";
-  for (std::size_t i = 0; i <= kMostLearners; ++i) many += std::to_string(i) + "\n";
+  for (std::size_t i = 0; i <= kMaxLearners; ++i) many += std::to_string(i) + "\n";
   refused("r.csv", many, "above the limit of 100000");
   refused("r.toml", "format = 2\nlearners = [\"a\"]\n", "format");
   refused("r.toml", "format = 1\nlearner = [\"a\"]\n", "learners");

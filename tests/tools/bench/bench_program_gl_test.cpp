@@ -118,14 +118,14 @@ TEST_CASE("insonate-bench batch: images and LC2, one a call and many, as through
   constexpr const char* kMethods[] = {"images", "images", "LC2", "LC2", "model S", "fetches"};
   REQUIRE(table.rows.size() == 2 * 6);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    CHECK((table.number("table.csv", i, "images_a_call") > 1) == (i % 6 % 2 == 1));
+    CHECK((table.number("table.csv", i, "images_per_call") > 1) == (i % 6 % 2 == 1));
     CHECK(table.cell(i, "method") == kMethods[i % 6]);
     // Times keep seven digits behind the point. On a graphics card they are some thousandths of a millisecond.
-    CHECK(table.number("table.csv", i, "images_a_second") * table.number("table.csv", i, "median_ms") ==
+    CHECK(table.number("table.csv", i, "images_per_second") * table.number("table.csv", i, "median_ms") ==
           Approx(1000).epsilon(0.01));
     const double pixels = table.number("table.csv", i, "width") * table.number("table.csv", i, "height");
-    CHECK(table.number("table.csv", i, "mpixels_a_second") ==
-          Approx(table.number("table.csv", i, "images_a_second") * pixels * 1e-6).epsilon(0.01).margin(0.006));
+    CHECK(table.number("table.csv", i, "mpixels_per_second") ==
+          Approx(table.number("table.csv", i, "images_per_second") * pixels * 1e-6).epsilon(0.01).margin(0.006));
   }
   CHECK(f.output.find(" MPixel/s; ") != std::string::npos);
 }
@@ -138,7 +138,7 @@ TEST_CASE("insonate-bench throughput: images of the device and of the processor,
   REQUIRE(table.rows.size() == 2 * 3);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     CHECK(table.cell(i, "method") == kMethods[i % 3]);
-    CHECK(table.cell(i, "images_a_call") == "1");
+    CHECK(table.cell(i, "images_per_call") == "1");
     const double plain_ms = table.number("table.csv", i / 3 * 3 + 1, "median_ms");
     // Times keep seven digits behind the point. On a graphics card they are some thousandths of a millisecond.
     // Speed-ups keep four, because the software renderer of a busy machine takes many times as long as the plain

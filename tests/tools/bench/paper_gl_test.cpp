@@ -66,9 +66,9 @@ TEST_CASE("the paper's passes agree with the reference in the trainer's mode, tw
   settings.slice_planes = 1;  // the paper knows neither
   settings.edge_shadow = false;
   settings.samples = 300;
-  for (const double samples_a_length : {2.0, 1.0, 1.63}) {
-    CAPTURE(samples_a_length);
-    settings.reflection_length_mm = samples_a_length * 110 / 300;
+  for (const double samples_per_length : {2.0, 1.0, 1.63}) {
+    CAPTURE(samples_per_length);
+    settings.reflection_length_mm = samples_per_length * 110 / 300;
     check(settings, test::on_the_skin(0, 9, 12));
   }
 }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "sim/registration/wein_reference.h"
+#include "sim/wein/wein_reference.h"
 #include "tests/imaging/test_body.h"
 #include "tools/bench/processor/wein_on_processor.h"
 

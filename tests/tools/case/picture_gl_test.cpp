@@ -24,7 +24,7 @@ Image<Rgba8> read_png(const std::filesystem::path& file) {
 }  // namespace
 
 // The ball has 60 HU and lies in air.
-TEST_CASE("A picture shows what the look shows, and the view's plane") {
+TEST_CASE("a picture shows what the look shows, and the view's plane") {
   Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const std::string out = (place.folder.path / "picture.png").string();
@@ -51,7 +51,7 @@ TEST_CASE("A picture shows what the look shows, and the view's plane") {
 // Pictures of docs/view.md as baselines. The same software renderer draws the same pixels, so that they are equal with
 // the Mesa that drew them; another one may round otherwise at edges. A picture without one of its features differs in
 // thousands of pixels, as the last check shows. After a wanted change tools/view-pictures draws them anew.
-TEST_CASE("The patient looks as in the documents' pictures") {
+TEST_CASE("the patient looks as in the documents' pictures") {
   const std::filesystem::path root = INSONATE_SOURCE_FOLDER;
   TemporaryFolder drawn;
   const std::vector<std::string> names{"structures", "bones", "plane_in_bones", "plane_in_skin", "surfaces"};
@@ -83,7 +83,7 @@ TEST_CASE("The patient looks as in the documents' pictures") {
   CHECK(different(read_png(drawn.path / "structures.png"), baseline("bones")) > 10 * kAtEdges);
 }
 
-TEST_CASE("A picture that cannot be drawn is refused") {
+TEST_CASE("a picture that cannot be drawn is refused") {
   Workplace place;
   REQUIRE(place.make(place.made).code == 0);
   const std::string patient = "picture --case " + place.made.string(), out = (place.folder.path / "p.png").string();

@@ -216,23 +216,23 @@ class Registrations(unittest.TestCase):
                 poses = np.array([view.pose] * 5)
                 for i, moved in enumerate((-12, -6, 0, 6, 12)):
                     poses[i][:3, 3] += moved * view.pose[:3, axis]
-                with insonate.Registration(case, picture, view.probe, view.depth_mm) as registration:
-                    similarity = registration.similarity(poses)
+                with insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm) as comparison:
+                    similarity = comparison.similarity(poses)
                     self.assertEqual(similarity.dtype, np.float32)
                     self.assertEqual(similarity.argmax(), 2, f"{name}, axis {axis}: {similarity}")
         with self.assertRaisesRegex(RuntimeError, "the registration is closed"):
-            registration.similarity(poses)
+            comparison.similarity(poses)
         # Attenuation and shadows differ over a whole image, but little within a patch.
-        with insonate.Registration(case, picture, view.probe, view.depth_mm, patch=0) as whole:
+        with insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm, patch=0) as whole:
             self.assertLess(whole.similarity(poses[2:3])[0], similarity[2])
         with self.assertRaisesRegex(insonate.InputError, "^patch: .*give 0, or 4 to 128"):
-            insonate.Registration(case, picture, view.probe, view.depth_mm, patch=2)
-        with insonate.Registration(case, picture[:, ::-1], view.probe, view.depth_mm) as mirrored:
+            insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm, patch=2)
+        with insonate.ImageSimilarity(case, picture[:, ::-1], view.probe, view.depth_mm) as mirrored:
             self.assertLess(mirrored.similarity(poses[2:3])[0], similarity[2])
         with self.assertRaisesRegex(insonate.InputError, "not an array of rows by columns"):
-            insonate.Registration(case, picture[0], view.probe)
+            insonate.ImageSimilarity(case, picture[0], view.probe)
         with self.assertRaisesRegex(insonate.InputError, "there is no such file"):
-            insonate.Registration(case, picture, view.probe, settings="/nowhere.toml")
+            insonate.ImageSimilarity(case, picture, view.probe, settings="/nowhere.toml")
 
 
 if __name__ == "__main__":

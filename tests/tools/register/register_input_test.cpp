@@ -13,11 +13,11 @@
 #include "devices/record/sequence_recorder.h"
 #include "devices/replay/read_log.h"
 #include "devices/sequence/recorded_images.h"
-#include "sim/alignment/echo_seen.h"
-#include "sim/alignment/find_fan.h"
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
 #include "sim/files/png.h"
+#include "sim/registration/echo_seen.h"
+#include "sim/registration/find_fan.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/volume/dicom_files.h"
 #include "tools/register/read_sweep.h"
@@ -30,11 +30,11 @@ using Catch::Contains;
 namespace {
 
 constexpr int kWidth = 40, kHeight = 30;
-constexpr double kPixelMm = 1.5;  // an image of 60 x 45 mm, which a linear probe of 40 mm fits into
+constexpr double kPixel_mm = 1.5;  // an image of 60 x 45 mm, which a linear probe of 40 mm fits into
 
 /// Images of a gradient, whose top middle is the probe's face.
 glm::dmat4 usual_matrix() {
-  return {{kPixelMm, 0, 0, 0}, {0, kPixelMm, 0, 0}, {0, 0, 1, 0}, {-kPixelMm * kWidth / 2, 0, 0, 1}};
+  return {{kPixel_mm, 0, 0, 0}, {0, kPixel_mm, 0, 0}, {0, 0, 1, 0}, {-kPixel_mm * kWidth / 2, 0, 0, 1}};
 }
 
 struct Recorded {
@@ -183,7 +183,7 @@ TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         clip.stored.push_back(x < 2 || x >= kWidth - 2 ? std::uint8_t(80 * i) : std::uint8_t(60 + 5 * y));
-  clip.regions = {{2, 0, kWidth - 3, kHeight - 1, 1, 1, 3, kPixelMm / 10, kPixelMm / 10}};
+  clip.regions = {{2, 0, kWidth - 3, kHeight - 1, 1, 1, 3, kPixel_mm / 10, kPixel_mm / 10}};
   SweepInput input = recorded.input;
   input.file = (recorded.folder.path / "clip.dcm").string();
   input.clip.reset();
@@ -215,7 +215,7 @@ TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same
   const ReadSweep by_fan = read_sweep(found);
   REQUIRE(by_fan.fan);
   CHECK(by_fan.sweep.probe.kind == ProbeKind::linear);
-  CHECK(by_fan.sweep.probe.width_mm == Approx(kPixelMm * (kWidth - 4)).margin(kPixelMm));
+  CHECK(by_fan.sweep.probe.width_mm == Approx(kPixel_mm * (kWidth - 4)).margin(kPixel_mm));
   // The poses are those of the face.
   CHECK(glm::distance(by_fan.sweep.images[2].sweep_from_probe.translation, glm::dvec3(0, 0, 4)) < 1e-9);
 
@@ -391,17 +391,17 @@ TEST_CASE("without a probe, it is found from the fan in the images") {
     std::filesystem::remove(recorded.input.file);
     SequenceRecorder recorder(recorded.input.file, kWidth, kHeight);
     for (int i = 0; i < 3; ++i) {
-      const double mm = i == 2 ? last_mm : kPixelMm;
+      const double mm = i == 2 ? last_mm : kPixel_mm;
       recorder.add({double(i), PoseStatus::ok, Pose{glm::dmat3(1), {0, 0, 2.0 * i}}},
                    Image<std::uint8_t>(kWidth, kHeight, grey),
                    glm::dmat4(mm, 0, 0, 0, 0, mm, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
     }
     recorder.finish();
   };
-  record(90, 2 * kPixelMm);
+  record(90, 2 * kPixel_mm);
   recorded.refused(
       "scan.igs.mha: frame 2: its pixels have another size; record each depth on its own, and register one of them.");
-  record(0, kPixelMm);
+  record(0, kPixel_mm);
   recorded.refused(
       "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth");
 }

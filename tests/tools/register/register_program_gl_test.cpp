@@ -12,12 +12,12 @@
 #include <string>
 
 #include "devices/record/sequence_recorder.h"
-#include "sim/alignment/synthetic_sweep.h"
 #include "sim/core/text.h"
 #include "sim/files/digest.h"
 #include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 #include "sim/reconstruction/tracked_picture.h"
+#include "sim/registration/synthetic_sweep.h"
 #include "sim/volume/ct_reader.h"
 #include "tests/core/run_program.h"
 #include "tests/imaging/test_body.h"
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kDepthMm = 100;
+constexpr double kDepth_mm = 100;
 constexpr int kWidth = 160, kHeight = 120;
 
 /// A folder with the test body's CT, and a recording of a sweep over it whose frame is shifted by 3, -2, 4 mm.
@@ -47,8 +47,8 @@ struct Workplace {
     const gl::HeadlessContext context;
     const Probe probe = *find_probe("curvilinear");
     const TrackedSweep sweep =
-        synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe, kDepthMm,
-                        trainer_settings(probe.frequency_mhz, kDepthMm),
+        synthetic_sweep(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"), probe, kDepth_mm,
+                        trainer_settings(probe.frequency_mhz, kDepth_mm),
                         hand_sweep(test::on_the_skin(0, 6, 0), breath_mm > 0 ? 16 : 12, 12, 16), kWidth, kHeight);
     record("sweep.igs.mha", sweep, [](float grey) { return std::isnan(grey) ? 0 : int(grey); });
     record("black.igs.mha", sweep, [](float) { return 0; });
@@ -60,7 +60,7 @@ struct Workplace {
   template <typename Grey>
   void record(const char* name, const TrackedSweep& sweep, Grey&& grey) const {
     SequenceRecorder recorder(folder.path / name, kWidth, kHeight);
-    const ImageGeometry geometry = image_geometry(sweep.probe, kDepthMm, kWidth, kHeight);
+    const ImageGeometry geometry = image_geometry(sweep.probe, kDepth_mm, kWidth, kHeight);
     double time_s = 1;
     for (const SweepImage& image : sweep.images) {
       Image<std::uint8_t> picture(kWidth, kHeight);
@@ -74,7 +74,7 @@ struct Workplace {
     recorder.finish();
   }
   void record_dicom(const char* name, const char* poses_name, const TrackedSweep& sweep) const {
-    const ImageGeometry geometry = image_geometry(sweep.probe, kDepthMm, kWidth, kHeight);
+    const ImageGeometry geometry = image_geometry(sweep.probe, kDepth_mm, kWidth, kHeight);
     DicomClip clip;
     clip.columns = kWidth;
     clip.rows = kHeight;
@@ -179,7 +179,7 @@ TEST_CASE("a recording is registered with the probe that its images show") {
   // A pixel is 1 mm large.
   CHECK(json["probe"]["radius_mm"].get<double>() == Approx(60).margin(2));
   CHECK(json["probe"]["field_of_view_deg"].get<double>() == Approx(60).margin(1));
-  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepthMm).margin(1));
+  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepth_mm).margin(1));
   CHECK(read_file(fs::path(place.in("out")) / "index.html").find("found from the images") != std::string::npos);
   const ProgramOutcome with_depth =
       place.run_as_found("--depth 90 " + place.in("sweep.igs.mha") + " " + place.in("more"));
@@ -207,7 +207,7 @@ TEST_CASE("a volume of a sweep is registered by the probe and the planes that it
   CHECK(json["probe"]["kind"] == "curvilinear");
   CHECK(json["probe"]["found_in_volume"].get<std::string>().find("; planes tilted over 2") != std::string::npos);
   CHECK(json["probe"]["radius_mm"].get<double>() == Approx(60).margin(3));  // from voxels of 1 mm
-  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepthMm).margin(2));
+  CHECK(json["probe"]["depth_mm"].get<double>() == Approx(kDepth_mm).margin(2));
   // The shift of the recording, within the size of the CT's voxels.
   const double shift[] = {3, -2, 4};
   for (std::size_t row = 0; row < 3; ++row) {

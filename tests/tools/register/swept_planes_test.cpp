@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "sim/alignment/find_fan.h"
+#include "sim/registration/find_fan.h"
 
 using namespace insonate;
 

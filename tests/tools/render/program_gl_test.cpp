@@ -86,7 +86,7 @@ TEST_CASE("model W has its own settings file and picture, alike from the graphic
   REQUIRE(reference.size() == drawn.size());
   int worst = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - reference[i]));
-  CHECK(worst <= 1);  // as in tests/registration/wein_gl_test.cpp
+  CHECK(worst <= 1);  // as in tests/wein/wein_gl_test.cpp
 
   REQUIRE(scene.render("--model W --pose " + scene.in("pose.txt")).code == 0);
   CHECK(grey_levels(scene.in("image.png")).size() == 128 * 96);

@@ -134,8 +134,8 @@ void check_geometry(const StageFolder& stages, const View& view, int samples, in
   }
   CHECK(glm::distance(vec3(volume.at("origin_mm")), grid.origin) < 1e-9);
   CHECK(glm::distance(of_file.origin, grid.origin) < 1e-9);
-  CHECK(volume.at("outside_hu") == kAirHu);
-  CHECK(volume.at("outside_echogenicity_db") == kLeastEchogenicityDb);
+  CHECK(volume.at("outside_hu") == kAir_hu);
+  CHECK(volume.at("outside_echogenicity_db") == kMinEchogenicity_db);
 
   const nlohmann::json& picture = text.at("image");
   CHECK(picture.at("width") == width);

@@ -5,12 +5,12 @@
 
 #include <utility>
 
-#include "sim/registration/wein_settings_file.h"
 #include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/ct_reader.h"
-#include "tests/registration/wein_parity.h"
+#include "sim/wein/wein_settings_file.h"
 #include "tests/tools/render/stage_folder.h"
 #include "tests/tools/render/synthetic_ct.h"
+#include "tests/wein/wein_parity.h"
 
 using namespace insonate;
 using namespace insonate::test;
@@ -47,8 +47,8 @@ TEST_CASE("model W: each file of the stages has its form, and holds the stage of
   CHECK(stages.description.at("model") == "W");
   CHECK((stages.description.at("made_by") == "reference in double precision") == by_reference);
   CHECK(stages.description.at("air_mu") == kAirMu);
-  CHECK(stages.description.at("contact_tissue_hu") == kCouplingTissueHu);
-  CHECK(stages.description.at("contact_air_hu") == kCouplingAirHu);
+  CHECK(stages.description.at("contact_tissue_hu") == kCouplingTissue_hu);
+  CHECK(stages.description.at("contact_air_hu") == kCouplingAir_hu);
   CHECK((stages.files.at("volume").volume<std::int16_t>().voxels == without_noise.voxels));
 
   const ReferenceWeinStages reference =

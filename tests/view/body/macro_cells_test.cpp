@@ -12,7 +12,7 @@
 using namespace insonate;
 using namespace insonate::view;
 
-TEST_CASE("The distance map has the largest of the steps to the nearest busy cell") {
+TEST_CASE("the distance map has the largest of the steps to the nearest busy cell") {
   std::mt19937 random(3);
   for (const glm::ivec3 size : {glm::ivec3(1), glm::ivec3(9, 7, 5), glm::ivec3(40, 3, 2), glm::ivec3(2, 3, 40)})
     for (const unsigned rarity : {3u, 20u, 1000000u}) {
@@ -24,7 +24,7 @@ TEST_CASE("The distance map has the largest of the steps to the nearest busy cel
       for (int z = 0; z < size.z; ++z)
         for (int y = 0; y < size.y; ++y)
           for (int x = 0; x < size.x; ++x, ++cell) {
-            int least = kMostDistance;
+            int least = kMaxDistance;
             std::size_t other = 0;
             for (int k = 0; k < size.z; ++k)
               for (int j = 0; j < size.y; ++j)
@@ -36,7 +36,7 @@ TEST_CASE("The distance map has the largest of the steps to the nearest busy cel
     }
 }
 
-TEST_CASE("No sample in an empty cell is visible, and no cell with a visible voxel is empty") {
+TEST_CASE("no sample in an empty cell is visible, and no cell with a visible voxel is empty") {
   std::mt19937 random(4);
   Volume<std::int16_t> ct;
   ct.grid.size = {19, 11, 23};
@@ -73,7 +73,7 @@ TEST_CASE("No sample in an empty cell is visible, and no cell with a visible vox
   CHECK(empty_cells > 20);
 }
 
-TEST_CASE("A hidden cell is empty whatever the function shows") {
+TEST_CASE("a hidden cell is empty whatever the function shows") {
   Volume<std::int16_t> ct;
   ct.grid.size = glm::ivec3(2 * MacroCells::kSide, MacroCells::kSide, MacroCells::kSide);
   ct.voxels.assign(ct.grid.count(), 40);

@@ -18,14 +18,14 @@ glm::dvec2 place(const OrbitCamera& camera, const glm::dvec3& p) {
 
 }  // namespace
 
-TEST_CASE("From the front the patient's left is on the right and the head is up") {
+TEST_CASE("from the front the patient's left is on the right and the head is up") {
   const OrbitCamera camera;
   CHECK(place(camera, {50, 0, 0}).x > kWidth / 2.0);
   CHECK(place(camera, {0, 0, 50}).y < kHeight / 2.0);
   CHECK(place(camera, {0, 0, 0}) == glm::dvec2(kWidth, kHeight) / 2.0);
 }
 
-TEST_CASE("Yaw and pitch take the camera where they say") {
+TEST_CASE("yaw and pitch take the camera where they say") {
   OrbitCamera camera;
   camera.distance_mm = 700;
   camera.yaw_deg = 90;
@@ -39,14 +39,14 @@ TEST_CASE("Yaw and pitch take the camera where they say") {
   CHECK(glm::determinant(r) == Approx(1));
 }
 
-TEST_CASE("Perspective: a length at the centre has the pixels that the field of view gives it") {
+TEST_CASE("perspective: a length at the centre has the pixels that the field of view gives it") {
   OrbitCamera camera;
   camera.distance_mm = 500;
   camera.field_of_view_deg = 90;  // the picture's height spans twice the distance
   CHECK(place(camera, {100, 0, 0}).x - kWidth / 2.0 == Approx(100 * kHeight / 1000.0));
 }
 
-TEST_CASE("The line of sight through a pixel meets what is seen there") {
+TEST_CASE("the line of sight through a pixel meets what is seen there") {
   OrbitCamera camera;
   camera.yaw_deg = 35;
   camera.pitch_deg = -20;
@@ -58,7 +58,7 @@ TEST_CASE("The line of sight through a pixel meets what is seen there") {
   }
 }
 
-TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels") {
+TEST_CASE("panning moves what lies at the centre's depth by the pointer's pixels") {
   OrbitCamera camera;
   camera.yaw_deg = 35;
   camera.pitch_deg = -20;
@@ -69,7 +69,7 @@ TEST_CASE("Panning moves what lies at the centre's depth by the pointer's pixels
   CHECK(moved.y == Approx(-12));
 }
 
-TEST_CASE("From each side the camera sees the whole volume, and the patient lies as that side is named") {
+TEST_CASE("from each side the camera sees the whole volume, and the patient lies as that side is named") {
   insonate::Grid grid;
   grid.size = {200, 140, 180};
   grid.spacing = {2, 2, 2};
@@ -95,7 +95,7 @@ TEST_CASE("From each side the camera sees the whole volume, and the patient lies
   }
 }
 
-TEST_CASE("A camera that faces a plane looks across it from the front, whatever the plane") {
+TEST_CASE("a camera that faces a plane looks across it from the front, whatever the plane") {
   insonate::Grid grid;
   grid.size = {300, 200, 400};
   for (const glm::dvec3& normal : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0),
@@ -112,7 +112,7 @@ TEST_CASE("A camera that faces a plane looks across it from the front, whatever 
   }
 }
 
-TEST_CASE("A camera that faces a plane has body, probe and picture in its picture, and fills it, wide or high") {
+TEST_CASE("a camera that faces a plane has body, probe and picture in its picture, and fills it, wide or high") {
   insonate::Grid grid;
   grid.size = {340, 240, 400};
   const Pose probe{glm::dmat3(1.0), grid.centre() - glm::dvec3(0, 100, 0)};
@@ -131,7 +131,7 @@ TEST_CASE("A camera that faces a plane has body, probe and picture in its pictur
   }
 }
 
-TEST_CASE("Dragging never turns the camera over and never loses the patient") {
+TEST_CASE("dragging never turns the camera over and never loses the patient") {
   OrbitCamera camera;
   camera.orbit(350, 400);
   CHECK(camera.pitch_deg < 90);

@@ -49,7 +49,7 @@ std::size_t at_mm(const TissueClasses& classes, const glm::ivec3& mm) {
 
 }  // namespace
 
-TEST_CASE("A body is solid, with its gas, and without the table it lies on") {
+TEST_CASE("a body is solid, with its gas, and without the table it lies on") {
   const Patient patient;
   const TissueClasses classes = classify_tissue(patient.ct, patient.labels, patient.colours);
   REQUIRE(classes.step == glm::ivec3(2));
@@ -60,7 +60,7 @@ TEST_CASE("A body is solid, with its gas, and without the table it lies on") {
   CHECK(classes.tissue[at_mm(classes, {45, 83, 45})][3] == 0);
 }
 
-TEST_CASE("Organs come from labels and bone from its density") {
+TEST_CASE("organs come from labels and bone from its density") {
   const Patient patient;
   const TissueClasses classes = classify_tissue(patient.ct, patient.labels, patient.colours);
   const auto organ = classes.tissue[at_mm(classes, {60, 45, 50})];
@@ -74,7 +74,7 @@ TEST_CASE("Organs come from labels and bone from its density") {
   CHECK(without_labels.tissue[at_mm(without_labels, {30, 45, 40})][3] == 255);
 }
 
-TEST_CASE("Every leap is as far as nothing changes and no farther") {
+TEST_CASE("every leap is as far as nothing changes and no farther") {
   const Patient patient;
   const TissueClasses classes = classify_tissue(patient.ct, patient.labels, patient.colours);
   const glm::ivec3 blocks = classes.blocks;

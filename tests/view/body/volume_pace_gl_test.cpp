@@ -28,7 +28,7 @@ Scene small_patient() {
 
 }  // namespace
 
-TEST_CASE("Nothing is drawn while nothing changes, and each change is drawn") {
+TEST_CASE("nothing is drawn while nothing changes, and each change is drawn") {
   Scene scene = small_patient();
   VolumeView view;
   OrbitCamera camera;
@@ -58,7 +58,7 @@ TEST_CASE("Nothing is drawn while nothing changes, and each change is drawn") {
   CHECK(view.scale() == 1);
 }
 
-TEST_CASE("While things move the picture is as coarse as the budget asks, and sharp once they rest") {
+TEST_CASE("while things move the picture is as coarse as the budget asks, and sharp once they rest") {
   Scene scene = small_patient();
   VolumeView view, unhurried;
   OrbitCamera camera;
@@ -92,7 +92,7 @@ TEST_CASE("While things move the picture is as coarse as the budget asks, and sh
             .pixels);
 }
 
-TEST_CASE("A coarse picture shows the same as the sharp one") {
+TEST_CASE("a coarse picture shows the same as the sharp one") {
   Scene scene = small_patient();
   VolumeView coarse, sharp;
   view::VolumeStyle style;
@@ -124,7 +124,7 @@ TEST_CASE("A coarse picture shows the same as the sharp one") {
   CHECK(mean < 3.0);
 }
 
-TEST_CASE("While things move the plane and the probe are as sharp as in the full picture, and in their places") {
+TEST_CASE("while things move the plane and the probe are as sharp as in the full picture, and in their places") {
   Scene scene = small_patient();
   view::VolumeStyle style;
   style.cut = GENERATE(true, false);
@@ -167,7 +167,7 @@ TEST_CASE("While things move the plane and the probe are as sharp as in the full
   CHECK(off < kWidth * kHeight / 50);
 }
 
-TEST_CASE("The volume view leaves the state of the context alone") {
+TEST_CASE("the volume view leaves the state of the context alone") {
   Scene scene = small_patient();
   VolumeView view;
   glViewport(1, 2, 33, 44);

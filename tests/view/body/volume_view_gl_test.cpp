@@ -69,7 +69,7 @@ void look_at_plane_from_below(Scene& scene, OrbitCamera& camera) {
 }  // namespace
 
 // A pixel and a half: the sphere's surface lies within half a voxel of 2 mm, and a voxel has 1.1 pixels here.
-TEST_CASE("A sphere's silhouette is where perspective puts it") {
+TEST_CASE("a sphere's silhouette is where perspective puts it") {
   const glm::dvec3 middle(12, -8, 20);
   const double radius = 42;
   Scene scene = bone_scene([&](const auto& p) { return glm::distance(p, middle) < radius; });
@@ -92,7 +92,7 @@ TEST_CASE("A sphere's silhouette is where perspective puts it") {
 }
 
 // 6 mm is three voxels of what is drawn: empty space must be leapt over up to such a sheet, not past it.
-TEST_CASE("A thin sheet of bone has no holes") {
+TEST_CASE("a thin sheet of bone has no holes") {
   Scene scene = bone_scene([](const auto& p) { return std::abs(p.y + 0.3 * p.x) < 3 && glm::length(p) < 70; });
   VolumeView view;
   OrbitCamera camera;
@@ -116,7 +116,7 @@ TEST_CASE("A thin sheet of bone has no holes") {
 }
 
 // A grey level, because each kind of shader has code of its own from the driver, which may round otherwise.
-TEST_CASE("Fragment and compute shaders draw the same, in whole pictures and in parts") {
+TEST_CASE("fragment and compute shaders draw the same, in whole pictures and in parts") {
   Scene scene = bone_scene([](const auto& p) { return glm::length(p * glm::dvec3(1, 0.7, 0.5)) < 40; });
   OrbitCamera camera;
   look_at_plane_from_below(scene, camera);
@@ -155,7 +155,7 @@ TEST_CASE("Fragment and compute shaders draw the same, in whole pictures and in 
   }
 }
 
-TEST_CASE("Left and right, head and feet are where they belong") {
+TEST_CASE("left and right, head and feet are where they belong") {
   Scene scene = bone_scene(
       [](const auto& p) { return glm::all(glm::lessThan(glm::abs(p - glm::dvec3(50, 0, 30)), glm::dvec3(9))); });
   VolumeView view;
@@ -172,7 +172,7 @@ TEST_CASE("Left and right, head and feet are where they belong") {
   CHECK(centre(0).y < kHeight / 2.0 - 5);   // towards the head
 }
 
-TEST_CASE("The picture is seen where it lies, and hidden behind bone in front of it") {
+TEST_CASE("the picture is seen where it lies, and hidden behind bone in front of it") {
   const auto slab = [](double z_mm) {
     return
         [z_mm](const glm::dvec3& p) { return std::abs(p.z - z_mm) < 6 && p.x > 0 && p.x < 70 && std::abs(p.y) < 60; };
@@ -222,7 +222,7 @@ TEST_CASE("The picture is seen where it lies, and hidden behind bone in front of
   }
 }
 
-TEST_CASE("Outside the fan there is no picture") {
+TEST_CASE("outside the fan there is no picture") {
   Scene scene = bone_scene([](const auto& p) { return glm::length(p) < 5; });
   OrbitCamera camera;
   look_at_plane_from_below(scene, camera);
@@ -240,7 +240,7 @@ TEST_CASE("Outside the fan there is no picture") {
   CHECK(left_half.centre.x > kWidth / 2.0);  // +x of the probe is the patient's left, here the right of the view
 }
 
-TEST_CASE("Skin shows what is within") {
+TEST_CASE("skin shows what is within") {
   const auto hu = [](const glm::dvec3& p) {
     return glm::length(p) < 20 ? 1000.0 : glm::length(p) < 60 ? 30.0 : -1000.0;
   };
@@ -263,7 +263,7 @@ TEST_CASE("Skin shows what is within") {
 
 // A sphere's own shade bends by 0.9 levels over 3 pixels to either side, and the skin's by 2.5. The gradient of the
 // body's share, which is smoothed less, bends it by 9.8: lines along the voxels.
-TEST_CASE("A ball's skin has a smooth shade, without the voxels' layers") {
+TEST_CASE("a ball's skin has a smooth shade, without the voxels' layers") {
   Scene scene(test::ct_of(test::skewed_grid(90), [](const auto& p) { return glm::length(p) < 60 ? 30.0 : -1000.0; }),
               {}, {});
   OrbitCamera camera;
@@ -286,7 +286,7 @@ TEST_CASE("A ball's skin has a smooth shade, without the voxels' layers") {
   CHECK(std::sqrt(squares / count) < 4);
 }
 
-TEST_CASE("A closed body shows nothing within where the CT ends") {
+TEST_CASE("a closed body shows nothing within where the CT ends") {
   const Grid grid = test::skewed_grid(60);
   const auto scene_with = [&](double within) {
     return Scene(test::ct_of(grid,
@@ -317,7 +317,7 @@ TEST_CASE("A closed body shows nothing within where the CT ends") {
   }
 }
 
-TEST_CASE("The probe stands on the skin with its marker on the side of the picture's right edge") {
+TEST_CASE("the probe stands on the skin with its marker on the side of the picture's right edge") {
   Scene scene = bone_scene([](const auto& p) { return glm::length(p) < 5; });
   OrbitCamera camera;
   look_at_plane_from_below(scene, camera);

@@ -5,7 +5,7 @@
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/simulator.h"
 #include "sim/imaging/upload.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_simulator.h"
 #include "tools/bench/commands.h"
 #include "tools/bench/tables/statistics.h"
 #include "tools/bench/texture_rate.h"
@@ -15,7 +15,7 @@ namespace {
 
 // Number of images per measured frame, in one call or in that many calls. It is the number that a search requests at
 // once, and more where images are cheap.
-std::size_t images_a_frame() {
+std::size_t images_per_frame() {
   return gl::is_software_renderer() ? 256 : 512;
 }
 
@@ -34,18 +34,18 @@ Image<float> random_picture(int width, int height) {
 }  // namespace
 
 Table measure_batch(const Request& request) {
-  Table table{{"device", "case", "view", "lines", "samples", "width", "height", "method", "images_a_call", "frames",
-               "q1_ms", "median_ms", "q3_ms", "images_a_second", "mpixels_a_second"},
+  Table table{{"device", "case", "view", "lines", "samples", "width", "height", "method", "images_per_call", "frames",
+               "q1_ms", "median_ms", "q3_ms", "images_per_second", "mpixels_per_second"},
               {}};
 
   const gl::HeadlessContext context;
   tell_device();
-  const std::size_t images = images_a_frame();
+  const std::size_t images = images_per_frame();
   const std::vector<Configuration> sizes = configurations(request, usual_sizes());
   for_each_scene(request, [&](const Scene& scene) {
     gl::Simulator trainer;
     gl::upload_ct(scene.file, scene.volume.grid, [&] { trainer.set_volume(scene.volume, scene.table); });
-    std::printf("\n%s, view %s, ms an image of %zu\n", scene.name.c_str(), scene.view.c_str(), images);
+    std::printf("\n%s, view %s, ms per image of %zu\n", scene.name.c_str(), scene.view.c_str(), images);
     std::printf(
         "lines x samples  picture      what        one a call                all in one call           ratio\n");
     Probe probe = scene.probe;
@@ -96,14 +96,14 @@ Table measure_batch(const Request& request) {
         ms.push_back(spread_of(of_method));
       }
       // Megapixels per second.
-      const auto mpixels_a_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
-      const auto add = [&](const char* method, std::size_t images_a_call, const Spread& spread) {
+      const auto mpixels_per_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
+      const auto add = [&](const char* method, std::size_t images_per_call, const Spread& spread) {
         table.rows.push_back({gl::device_description(), scene.name, scene.view, std::to_string(c.lines),
                               std::to_string(c.samples), std::to_string(c.width), std::to_string(c.height), method,
-                              std::to_string(images_a_call), std::to_string(request.frames),
+                              std::to_string(images_per_call), std::to_string(request.frames),
                               cell_of(spread.first_quartile, 7), cell_of(spread.median, 7),
                               cell_of(spread.third_quartile, 7), cell_of(1000 / spread.median, 1),
-                              cell_of(mpixels_a_second(spread), 2)});
+                              cell_of(mpixels_per_second(spread), 2)});
       };
       const auto report = [&](const char* method, const Spread& one, const Spread& all) {
         std::printf("%4d x %-4d      %4d x %-4d  %-10s  %.4f (%.4f to %.4f)  %.4f (%.4f to %.4f)  %5.2f\n", c.lines,
@@ -118,7 +118,7 @@ Table measure_batch(const Request& request) {
       std::printf(
           "                              in one call: %.0f images/s, %.1f MPixel/s; %.0f of the %.0f million fetches/s "
           "that the device makes when it does nothing else: %.0f %%\n",
-          1000 / ms[1].median, mpixels_a_second(ms[1]), mega_fetches / ms[1].median, mega_fetches / ms[5].median,
+          1000 / ms[1].median, mpixels_per_second(ms[1]), mega_fetches / ms[1].median, mega_fetches / ms[5].median,
           100 * ms[5].median / ms[1].median);
       add("images", 1, ms[0]);
       add("images", images, ms[1]);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "sim/alignment/free_form.h"
-#include "sim/alignment/registration.h"
-#include "sim/alignment/synthetic_sweep.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/model/settings.h"
+#include "sim/registration/free_form.h"
+#include "sim/registration/registration.h"
+#include "sim/registration/synthetic_sweep.h"
 #include "tools/bench/commands.h"
 
 namespace insonate::bench {

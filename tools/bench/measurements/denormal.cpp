@@ -11,7 +11,7 @@
 namespace insonate::bench {
 namespace {
 
-constexpr int kTissueHu = 60, kGasHu = -1000, kBoneHu = 1500;
+constexpr int kTissue_hu = 60, kGas_hu = -1000, kBone_hu = 1500;
 constexpr double kVoxel_mm = 0.1, kDepth_mm = 160;
 constexpr int kVoxelsALayer = 10;  // so that each face of a layer is a separate interface at l = 0.6 mm
 
@@ -27,9 +27,9 @@ AcousticVolume layered(const TissueTable& table, bool shadowed) {
   std::vector<int> layers;
   constexpr double kLeft = 4e-20;
   double left = 1;
-  for (const int hu : {kGasHu, kBoneHu})
-    for (const double both = std::pow(passed(table, kTissueHu, hu), 2); left * both > kLeft; left *= both)
-      layers.insert(layers.end(), {kTissueHu, shadowed ? hu : kTissueHu});
+  for (const int hu : {kGas_hu, kBone_hu})
+    for (const double both = std::pow(passed(table, kTissue_hu, hu), 2); left * both > kLeft; left *= both)
+      layers.insert(layers.end(), {kTissue_hu, shadowed ? hu : kTissue_hu});
   AcousticVolume volume;
   volume.grid.size = {2, int(kDepth_mm / kVoxel_mm) + 1, 2};
   volume.grid.spacing = {100, kVoxel_mm, 100};
@@ -38,7 +38,7 @@ AcousticVolume layered(const TissueTable& table, bool shadowed) {
     for (int y = 0; y < volume.grid.size.y; ++y)
       for (int x = 0; x < 2; ++x) {
         const std::size_t layer = std::size_t(y / kVoxelsALayer);
-        const int hu = layer < layers.size() ? layers[layer] : kTissueHu + y % 2;
+        const int hu = layer < layers.size() ? layers[layer] : kTissue_hu + y % 2;
         volume.voxels.push_back({std::int16_t(hu), 0});
       }
   return volume;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kReferenceLines = 64;
 /// Thresholds of the comparison: I above this value, as in the accuracy contract; R above this share of the brightest.
-constexpr double kLeast = 1e-6;
+constexpr double kMin = 1e-6;
 
 /// Returns the RMS error in dB. A value that is far too weak counts as 1/100 of the threshold.
 double error_db(const Image<float>& got, const Image<double>& expected, const std::vector<int>& lines, double least) {
@@ -34,8 +34,8 @@ struct Error {
 Error error_of(const Image<float>& intensity, const Image<float>& reflection, const Converged& converged) {
   const auto& expected = converged.reflection.pixels;
   const double brightest = *std::max_element(expected.begin(), expected.end());
-  return {error_db(intensity, converged.intensity, converged.lines, kLeast),
-          error_db(reflection, converged.reflection, converged.lines, kLeast * brightest)};
+  return {error_db(intensity, converged.intensity, converged.lines, kMin),
+          error_db(reflection, converged.reflection, converged.lines, kMin * brightest)};
 }
 
 }  // namespace

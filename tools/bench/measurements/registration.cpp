@@ -1,4 +1,4 @@
-#include "sim/alignment/registration.h"
+#include "sim/registration/registration.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/alignment/synthetic_sweep.h"
 #include "sim/core/hash.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
 #include "sim/model/settings.h"
+#include "sim/registration/synthetic_sweep.h"
 #include "tools/bench/commands.h"
 
 namespace insonate::bench {

@@ -7,7 +7,7 @@
 #include "sim/files/files.h"
 #include "sim/gl/headless_context.h"
 #include "sim/imaging/upload.h"
-#include "sim/registration/wein_simulator.h"
+#include "sim/wein/wein_simulator.h"
 #include "tools/bench/commands.h"
 #include "tools/bench/processor/wein_on_processor.h"
 #include "tools/bench/tables/curves.h"
@@ -29,7 +29,7 @@ constexpr Configuration kTile = {256, 256, 256, 256};
 
 // A frame of the plain implementation has at most this many images, or it would take half a minute. It draws them one
 // after the other, so that the time per image does not depend on their number.
-constexpr std::size_t kMostPlainImages = 2;
+constexpr std::size_t kMaxPlainImages = 2;
 
 constexpr const char* kMethods[] = {"OpenGL", "plain", "vectorised"};
 
@@ -49,8 +49,8 @@ struct Curves {
 
 Table measure_throughput(const Request& request, const std::string& svg) {
   Table table{
-      {"device", "case", "view", "lines", "samples", "width", "height", "method", "images_a_call", "frames", "q1_ms",
-       "median_ms", "q3_ms", "images_a_second", "mpixels_a_second", "speed_up_of_plain", "speed_up_of_vectorised"},
+      {"device", "case", "view", "lines", "samples", "width", "height", "method", "images_per_call", "frames", "q1_ms",
+       "median_ms", "q3_ms", "images_per_second", "mpixels_per_second", "speed_up_of_plain", "speed_up_of_vectorised"},
       {}};
   std::vector<CurvePlot> plots;
   const gl::HeadlessContext context;
@@ -59,7 +59,7 @@ Table measure_throughput(const Request& request, const std::string& svg) {
               tbb::info::default_concurrency());
   for_each_scene(request, [&](const Scene& scene) {
     const DensityVoxels ct(scene.volume, WeinSettings{}.reflection_length_mm);
-    std::printf("\n%s, view %s, ms an image\n", scene.name.c_str(), scene.view.c_str());
+    std::printf("\n%s, view %s, ms per image\n", scene.name.c_str(), scene.view.c_str());
     std::printf(
         "lines x samples  picture      images  OpenGL                     MPixel/s  plain processor  ratio  vectorised "
         "      ratio\n");
@@ -76,7 +76,7 @@ Table measure_throughput(const Request& request, const std::string& svg) {
         device = std::make_unique<gl::WeinSimulator>(scene.volume, probe, scene.depth_mm, settings);
       });
       const ProcessorFan fan(probe, scene.depth_mm, settings);
-      const std::size_t plain_images = std::min(images, kMostPlainImages);
+      const std::size_t plain_images = std::min(images, kMaxPlainImages);
       std::vector<std::uint8_t> pictures(images * std::size_t(c.width) * std::size_t(c.height));
       const auto times = alternating_times(
           scene.pose, request.frames,
@@ -89,19 +89,19 @@ Table measure_throughput(const Request& request, const std::string& svg) {
         for (double& time : an_image) time /= double(method == 1 ? plain_images : images);
         ms.push_back(spread_of(an_image));
       }
-      const auto mpixels_a_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
+      const auto mpixels_per_second = [&](const Spread& spread) { return c.width * c.height / spread.median / 1000; };
       std::printf("%4d x %-4d      %4d x %-4d  %5zu   %8.4f (%.4f to %.4f)  %8.1f  %8.3f  %9.1f  %9.4f  %9.2f\n",
                   c.lines, c.samples, c.width, c.height, images, ms[0].median, ms[0].first_quartile,
-                  ms[0].third_quartile, mpixels_a_second(ms[0]), ms[1].median, ms[1].median / ms[0].median,
+                  ms[0].third_quartile, mpixels_per_second(ms[0]), ms[1].median, ms[1].median / ms[0].median,
                   ms[2].median, ms[2].median / ms[0].median);
       for (std::size_t method = 0; method < 3; ++method) {
-        of_method[method].points.emplace_back(x, mpixels_a_second(ms[method]));
+        of_method[method].points.emplace_back(x, mpixels_per_second(ms[method]));
         table.rows.push_back({gl::device_description(), scene.name, scene.view, std::to_string(c.lines),
                               std::to_string(c.samples), std::to_string(c.width), std::to_string(c.height),
                               kMethods[method], std::to_string(method == 1 ? plain_images : images),
                               std::to_string(request.frames), cell_of(ms[method].first_quartile, 5),
                               cell_of(ms[method].median, 5), cell_of(ms[method].third_quartile, 5),
-                              cell_of(1000 / ms[method].median, 1), cell_of(mpixels_a_second(ms[method]), 2),
+                              cell_of(1000 / ms[method].median, 1), cell_of(mpixels_per_second(ms[method]), 2),
                               cell_of(ms[1].median / ms[method].median, 4),
                               cell_of(ms[2].median / ms[method].median, 4)});
       }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/registration/density_volume.h"
+#include "sim/wein/density_volume.h"
 
 namespace insonate::bench {
 

@@ -6,8 +6,8 @@
 #include "sim/core/image.h"
 #include "sim/core/pose.h"
 #include "sim/probe/probe.h"
-#include "sim/registration/wein_settings.h"
 #include "sim/tissue/acoustic_volume.h"
+#include "sim/wein/wein_settings.h"
 
 /// What both implementations of model W on the processor read. It is made once, before any image.
 namespace insonate::bench {

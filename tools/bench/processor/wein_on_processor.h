@@ -5,7 +5,7 @@
 
 #include "tools/bench/processor/density_voxels.h"
 
-/// Model W's images (sim/registration/wein_settings.h) computed by the processor's own instructions, without OpenGL:
+/// Model W's images (sim/wein/wein_settings.h) computed by the processor's own instructions, without OpenGL:
 /// what the graphics pipeline is compared with. `exact_filter` has no meaning here: both interpolate exactly.
 namespace insonate::bench {
 

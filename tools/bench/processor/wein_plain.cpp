@@ -47,7 +47,8 @@ void simulate_plainly(const DensityVoxels& ct, const ProcessorFan& fan, const We
         const double r = fan.lines.r_min_mm + (double(k) + 0.5) * dr;
         Medium medium = medium_at(ct, ct.grid.index_from_patient(pose.point(sight.start + r * sight.direction)));
         if (r < settings.contact_mm) {
-          medium.hu *= 1 - std::clamp((kCouplingTissueHu - medium.hu) / (kCouplingTissueHu - kCouplingAirHu), 0.0, 1.0);
+          medium.hu *=
+              1 - std::clamp((kCouplingTissue_hu - medium.hu) / (kCouplingTissue_hu - kCouplingAir_hu), 0.0, 1.0);
           medium.gradient = glm::dvec3(0);
         }
         const double mu = std::max(medium.hu + 1000, kAirMu);

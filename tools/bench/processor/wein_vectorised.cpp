@@ -108,8 +108,8 @@ INSONATE_INLINED void traverse_inlined(const DensityVoxels& ct, const ScanLines&
   const float dark = float(settings.dark_hu), by_range = 1 / float(settings.bright_hu - settings.dark_hu);
   const float shadow = settings.shadows ? 1.0f : 0.0f;
   const float reflection_share = float(settings.reflection_share), echo_share = 1 - reflection_share;
-  const float coupling_tissue = float(kCouplingTissueHu);
-  const float by_coupling = 1 / float(kCouplingTissueHu - kCouplingAirHu);
+  const float coupling_tissue = float(kCouplingTissue_hu);
+  const float by_coupling = 1 / float(kCouplingTissue_hu - kCouplingAir_hu);
   Eight dx{}, dy{}, dz{}, hu{}, gx{}, gy{}, gz{};
   for (int lane = 0; lane < kLanes; ++lane) {
     dx[lane] = eight[lane].direction.x;

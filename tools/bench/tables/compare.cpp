@@ -17,8 +17,8 @@ namespace {
 constexpr std::array<const char*, 3> kTimes = {"q1_ms", "median_ms", "q3_ms"};
 // Columns that are measured or informative, besides all times. Every other column is part of the setting.
 constexpr std::array<const char*, 14> kMeasured = {
-    "device",   "frames",   "runs_still",      "error_db",         "error_grey", "error_r_db", "evaluated",
-    "possible", "on_front", "images_a_second", "mpixels_a_second", "faintest",   "denormal",   "volume_mib"};
+    "device",   "frames",   "runs_still",        "error_db",           "error_grey", "error_r_db", "evaluated",
+    "possible", "on_front", "images_per_second", "mpixels_per_second", "faintest",   "denormal",   "volume_mib"};
 
 constexpr std::array<const char*, 4> kBetterSmall = {"runs_still", "error_db", "error_grey", "error_r_db"};
 // Factor for the rounding of another device: a volume of half floats changes the errors of the same frames by 3e-4.

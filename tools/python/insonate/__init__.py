@@ -14,6 +14,6 @@ Poses are matrices patient_from_probe, 4 x 4, in mm and the patient's frame (LPS
 probe's marker on the left. What cannot be used raises InputError, a ValueError with one sentence.
 """
 from ._insonate import (
-    Case, InputError, Probe, Registration, Simulator, View, __version__, open_case, phantom, probe_names)
+    Case, InputError, Probe, ImageSimilarity, Simulator, View, __version__, open_case, phantom, probe_names)
 
-__all__ = ["Case", "InputError", "Probe", "Registration", "Simulator", "View", "open_case", "phantom", "probe_names"]
+__all__ = ["Case", "InputError", "Probe", "ImageSimilarity", "Simulator", "View", "open_case", "phantom", "probe_names"]

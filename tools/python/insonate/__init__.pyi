@@ -159,7 +159,7 @@ class Simulator:
     @property
     def device(self) -> str: ...
 
-class Registration:
+class ImageSimilarity:
     """Compares an ultrasound image with images that model W simulates of a case (LC2)."""
     def __init__(self, case: Case, ultrasound: ArrayLike, probe: Union[str, Probe], depth_mm: float | None = None,
                  settings: Union[str, PathLike[str], None] = None, patch: int | None = None) -> None:
@@ -167,7 +167,7 @@ class Registration:
         settings are a TOML file of model W. LC2 is the mean over patches of so many pixels, 4 to 128; 0: of the whole
         image at once. By default it is that of the settings, or without them a sixteenth of the image's width, as
         insonate-register has it. Raises InputError."""
-    def __enter__(self) -> Registration: ...
+    def __enter__(self) -> ImageSimilarity: ...
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
                  trace: TracebackType | None) -> None: ...
     def close(self) -> None:
