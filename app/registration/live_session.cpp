@@ -1,5 +1,9 @@
 #include "app/registration/live_session.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim/core/input_error.h"
@@ -10,7 +14,17 @@
 namespace insonate {
 namespace {
 
-constexpr std::size_t kLookedAt = 24;  // images in which the fan is sought
+constexpr std::size_t kFirstLook = 24;  // images in which the fan is sought first, and again at twice as many each time
+
+/// Whether two fans are the same but for what a few pixels of echo more or less at their edges change.
+bool are_alike(const FoundFan& a, const FoundFan& b) {
+  constexpr double kPixels = 4, kShare = 0.03, kAngle_deg = 2;
+  const auto is_near = [](double x, double y) { return std::abs(x - y) <= kShare * std::max(x, y); };
+  return a.probe.kind == b.probe.kind && glm::distance(a.face_pixel, b.face_pixel) <= kPixels &&
+         is_near(a.depth_mm, b.depth_mm) && is_near(a.probe.radius_mm, b.probe.radius_mm) &&
+         is_near(a.probe.width_mm, b.probe.width_mm) &&
+         std::abs(a.probe.field_of_view_deg - b.probe.field_of_view_deg) <= kAngle_deg;
+}
 
 igtl::ImagePlace place_of(const SweepInput& input) {
   return input.probe_from_pixel ? igtl::ImagePlace::by_transform : igtl::ImagePlace::by_image;
@@ -23,7 +37,8 @@ LiveSession::LiveSession(LiveRequest request, const Case& subject, const Acousti
       input_(request_.input),
       subject_(subject),
       volume_(volume),
-      stream_(request_.tracker, place_of(request_.input)) {}
+      stream_(request_.tracker, place_of(request_.input)),
+      next_look_(kFirstLook) {}
 
 void LiveSession::update(double now_s) {
   arrived_.clear();
@@ -43,7 +58,7 @@ void LiveSession::update(double now_s) {
       if (!input_.probe_from_pixel)
         if (const auto why = why_not_image_matrix(image.frame_from_pixel))
           throw InputError(input_.file, "", "its images: " + *why, "give their place as --image-to-probe FILE");
-      if (!input_.probe) look_for_fan(image);
+      if (!request_.input.probe) look_for_fan(image);
       if (input_.probe) show(std::move(image), now_s);
     } catch (const InputError& error) {
       problem_ = error.what();
@@ -53,9 +68,22 @@ void LiveSession::update(double now_s) {
 
 void LiveSession::look_for_fan(const igtl::TrackedImage& image) {
   seen_.add(image.grey);
-  if (seen_.images() < kLookedAt) return;
-  const EchoSeen seen = std::exchange(seen_, EchoSeen());
-  fan_ = find_probe_in(seen, input_.probe_from_pixel.value_or(image.frame_from_pixel), input_);
+  if (seen_.images() < next_look_) return;
+  next_look_ = fan_ ? 2 * seen_.images() : seen_.images() + kFirstLook;
+  SweepInput input = request_.input;
+  try {
+    const FoundFan found = find_probe_in(seen_, input.probe_from_pixel.value_or(image.frame_from_pixel), input);
+    next_look_ = 2 * seen_.images();
+    if (fan_ && are_alike(found, *fan_)) return;
+    fan_ = found;
+  } catch (const InputError&) {
+    if (!fan_) throw;
+    return;
+  }
+  // A probe that was lifted off when it began shows a part of its fan, or only noise: all that was found is void.
+  input_ = input;
+  registrar_.reset();
+  newest_.reset();
 }
 
 void LiveSession::show(igtl::TrackedImage image, double now_s) {

@@ -32,7 +32,8 @@ struct LiveRequest {
 };
 
 /// Registers real ultrasound that arrives over OpenIGTLink with a CT, without a screen: receives images, finds the
-/// probe in them if it is not named, and lets a LiveRegistrar refine the start. Needs no context of the caller.
+/// probe in them if it is not named, and lets a LiveRegistrar refine the start. It looks for the probe again when twice
+/// as many images have come, and begins anew if they show another fan. Needs no context of the caller.
 class LiveSession {
 public:
   static constexpr double kTakenEvery_s = 0.2;  ///< images that are registered; all are shown
@@ -90,6 +91,7 @@ private:
   const AcousticVolume& volume_;
   igtl::TrackedImages stream_;
   EchoSeen seen_;
+  std::size_t next_look_;  // for the fan, at so many images
   std::optional<FoundFan> fan_;
   std::unique_ptr<LiveRegistrar> registrar_;
   std::optional<Shown> newest_;

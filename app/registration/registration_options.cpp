@@ -14,7 +14,7 @@ LiveRequest RegistrationOptions::request() const {
   request.input = sweep.input();
   request.input.file = tracker;
   request.input.slices = settings.slices;
-  request.start = sweep.start();
+  request.start = sweep.start().ct_from_sweep;
   request.settings = settings;
   request.refines = refines;
   request.gives_way = !headless;
@@ -46,7 +46,8 @@ void declare_registration(CLI::App& arguments, RegistrationOptions& options) {
   mode.add_option("--slices", options.settings.slices, "Use this many of the newest images, well spread")
       ->check(CLI::Range(int(LiveRegistrar::kMinImages), 100))
       ->capture_default_str();
-  mode.add_flag("!--no-refining", options.refines, "Do not refine until the button is pressed");
+  mode.add_flag_callback(
+      "--no-refining", [&options] { options.refines = false; }, "Do not refine until the button is pressed");
   mode.add_option("--out", options.out, "Save to this new folder, or to the next free name: NAME-2")
       ->type_name("FOLDER")
       ->capture_default_str();

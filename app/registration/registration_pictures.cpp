@@ -84,7 +84,10 @@ bool RegistrationPictures::draw(const LiveSession& session) {
   of_image_ = session.shown();
   at_ = ct_from_sweep;
   const Probe& probe = *session.probe();
-  if (!view_) {
+  if (!view_ || probe != probe_ || session.depth_mm() != depth_mm_) {
+    view_.reset();
+    probe_ = probe;
+    depth_mm_ = session.depth_mm();
     Settings settings = at_quality(trainer_settings(probe.frequency_mhz, session.depth_mm()), Quality::fast);
     settings.image_width = kWidth;
     settings.image_height = kHeight;

@@ -63,7 +63,9 @@ public:
 private:
   gl::Simulator simulator_;
   gl::Texture received_, simulated_, blended_;
-  std::optional<FanView> view_;
+  std::optional<FanView> view_;  // of the next two
+  Probe probe_;
+  double depth_mm_ = 0;
   long of_image_ = -1, drawn_ = 0;
   glm::dmat4 at_{0.0};
 };

@@ -139,9 +139,11 @@ struct TomlContents {
   std::map<const toml::table*, TomlNode> nodes;  ///< of the tables that were read
   std::function<TomlDocument::Evaluation(const std::string&)> evaluate;
   toml::table no_table;
+  bool is_unreadable = false;  ///< what a reader misses in it then is no mistake of its own
 
   TomlNode& node_of(const toml::table& table) { return nodes.try_emplace(&table, *this, table).first->second; }
   void add(Mistake mistake) {
+    if (is_unreadable) return;
     if (on_mistake == OnMistake::throw_first) throw input_error(file, {std::move(mistake)});
     mistakes.push_back(std::move(mistake));
   }
@@ -203,6 +205,7 @@ TomlDocument::TomlDocument(std::string file, std::string_view text, OnMistake on
   contents_->on_mistake = on_mistake;
   if (const int line = line_of_deep_key(text); line > 0) {
     contents_->add({{line, 1}, "a key has more than " + std::to_string(kMaxKeyParts) + " parts", "shorten it"});
+    contents_->is_unreadable = true;
     return;
   }
   try {
@@ -210,6 +213,7 @@ TomlDocument::TomlDocument(std::string file, std::string_view text, OnMistake on
   } catch (const toml::parse_error& error) {
     contents_->add(
         {place_of(error.source()), "this is not TOML: " + std::string(error.description()), "correct the line"});
+    contents_->is_unreadable = true;
   }
 }
 

@@ -223,7 +223,7 @@ TEST_CASE("readers of looks, probes, transducers and studies outlive a failure a
   const std::string probe = folder.put("probe.toml", "kind = \"linear\"\nwidth_mm = 40\ndepth_mm = 50\n").string();
   CHECK(run_out_everywhere([&] { return read_probe(probe).width_mm; }) > 10);
   const std::string landmarks = folder.put("landmarks.txt", "0 0 0 1 2 3\n50 0 0 51 2 3\n0 50 0 1 52 3\n").string();
-  CHECK(run_out_everywhere([&] { return start_from_landmarks(landmarks)[3].x; }) > 0);
+  CHECK(run_out_everywhere([&] { return start_from_landmarks(landmarks).ct_from_sweep[3].x; }) > 0);
   const std::string pose = folder.put("pose.txt", "1 0 0 0 0 1 0 9 0 0 1 0 0 0 0 1\n").string();
   CHECK(run_out_everywhere([&] { return read_pose(pose).translation.y; }) > 0);
   Comment comment;

@@ -16,7 +16,7 @@ std::string broken_by_probe(const std::string& file) {
 }
 
 std::string broken_by_landmarks(const std::string& file) {
-  return why_not_rigid(start_from_landmarks(file), 1e6) ? "the start is not rigid" : "";
+  return why_not_rigid(start_from_landmarks(file).ct_from_sweep, 1e6) ? "the start is not rigid" : "";
 }
 
 const Target registration_input_target("registration_input", [](std::string_view bytes) -> std::string {

@@ -4,7 +4,8 @@
 include(CMakePackageConfigHelpers)
 
 set(library_folder "${CMAKE_INSTALL_LIBDIR}/cmake/insonate")
-set(rooms core files image_headers volume phantom probe reconstruction tissue model reference truth shaders gl imaging wein view)
+set(rooms core files image_headers volume phantom probe acoustics reconstruction tissue model reference truth shaders gl
+          imaging wein registration view)
 foreach(room IN LISTS rooms)
   set_target_properties(insonate_${room} PROPERTIES EXPORT_NAME ${room})
   target_include_directories(insonate_${room} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/insonate>")

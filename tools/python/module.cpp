@@ -4,7 +4,9 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <stdexcept>
 
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
@@ -43,6 +45,15 @@ PYBIND11_MODULE(_insonate, module) {
   module.attr("__version__") = INSONATE_VERSION;
   pybind11::register_exception<insonate::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
       doc("InputError");
+  // What the simulators refuse of a caller.
+  static PyObject* const input_error = module.attr("InputError").ptr();
+  pybind11::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::invalid_argument& error) {
+      PyErr_SetString(input_error, error.what());
+    }
+  });
   bind_probes(module);
   bind_cases(module);
   bind_simulator(module);

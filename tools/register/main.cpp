@@ -180,23 +180,26 @@ int main(int argc, char** argv) {
       free_form.wein = settings.wein;
       input.slices = 2 * settings.slices;  // half of them judge
     }
-    const glm::dmat4 ct_from_sweep = sweep.start();
+    const StartTransform start = sweep.start();
+    const glm::dmat4& ct_from_sweep = start.ct_from_sweep;
 
     ReadSweep read =
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
     if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
     if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
+    if (start.landmark_error_mm)
+      std::printf("Landmarks: fitted within %.1f mm (root mean square).\n", *start.landmark_error_mm);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     if (!read.found_in_volume.empty()) std::printf("Found in the volume: %s.\n", read.found_in_volume.c_str());
     const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
     const Case subject = open_subject(subject_path);
     check_start(subject_path, subject.ct, read.sweep, ct_from_sweep);
-    const double left_out = leave_out_ends(read.sweep, subject.ct, ct_from_sweep);
+    read.share_at_ends = leave_out_ends(read.sweep, subject.ct, ct_from_sweep);
     if (read.sweep.images.size() < 2)
       throw InputError(recording, "", "at the start fewer than two images show what lies in the CT",
                        "give a nearer --start, or a CT of the region that was scanned");
-    if (left_out > kMentioned)
-      std::printf("Left out: %.0f %% of the images, which lie where the CT ends.\n", 100 * left_out);
+    if (read.share_at_ends > kMentioned)
+      std::printf("Left out: %.0f %% of the images, which lie where the CT ends.\n", 100 * read.share_at_ends);
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);
     const gl::HeadlessContext context;
     SweepRegistration found;
@@ -205,7 +208,7 @@ int main(int argc, char** argv) {
       SweepRegistrar registrar(volume, read.sweep, settings);
       found = registrar.from(ct_from_sweep);
       found.seconds += registrar.seconds_to_prepare();
-      if (left_out > kMuch)
+      if (read.share_at_ends > kMuch)
         found.doubts.emplace_back("at the start most of what the images show lies where the CT ends");
       if (spacing_mm && found.converged()) deformed = fit_free_form(volume, read.sweep, found.ct_from_sweep, free_form);
     });
@@ -218,7 +221,8 @@ int main(int argc, char** argv) {
                                     {},
                                     deformed ? &*deformed : nullptr,
                                     &free_form,
-                                    command_line(argc, argv)};
+                                    command_line(argc, argv),
+                                    start.landmark_error_mm};
     write_registration(out, report, subject.ct);
     std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(report).c_str(),
                 measure.c_str(), found.similarity_before, found.similarity_after, found.evaluations.size(),

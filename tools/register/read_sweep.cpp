@@ -198,7 +198,8 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
     throw InputError(input.file, "", "it does not say how its images lie in the probe's frame: ImageToProbe is missing",
                      "give that matrix as --image-to-probe FILE");
   if (all.size() < 2)
-    throw InputError(input.file, "", "fewer than two of its images have a pose", "name the probe's with --transform");
+    throw InputError(input.file, "", "fewer than two of its images have a pose whose status is OK",
+                     "name the probe's transform with --transform; frames without a status of it count as lost");
   return all;
 }
 

@@ -46,6 +46,7 @@ struct ReadSweep {
   std::string found_in_volume;  ///< probe and planes as read_volume_sweep() found them, for the user; else empty
   std::size_t frames = 0;       ///< of the recording
   std::size_t left_out = 0;     ///< frames without a usable pose
+  double share_at_ends = 0;     ///< of the pixels, left out by leave_out_ends()
 };
 
 /// Reads images and poses, of a DICOM file by read_dicom_sweep(). The frame of each pose is that of the fan: its origin

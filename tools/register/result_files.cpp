@@ -176,6 +176,8 @@ std::string registration_json(const RegistrationReport& report) {
   json["recording"] = report.recording;
   json["frames"] = report.input.frames;
   json["frames_left_out"] = report.input.left_out;
+  json["share_left_out_at_ct_ends"] = report.input.share_at_ends;
+  if (report.landmark_error_mm) json["landmark_error_mm"] = *report.landmark_error_mm;
   json["slices"] = report.input.sweep.images.size();
   json["probe"] = probe_json(report.input.sweep, report.input.fan);
   if (!report.input.found_in_volume.empty()) json["probe"]["found_in_volume"] = report.input.found_in_volume;
@@ -244,6 +246,11 @@ std::string registration_page(const RegistrationReport& report) {
   html += row("CT", escaped(report.ct.empty() ? "the built-in patient" : report.ct));
   html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
                                " of " + std::to_string(report.input.frames) + " images");
+  if (report.input.share_at_ends > 0)
+    html += row("Left out", fixed(100 * report.input.share_at_ends, 0) +
+                                " % of the images, black in the pictures: there the CT ends");
+  if (report.landmark_error_mm)
+    html += row("Landmarks of the start", "fitted within " + fixed(*report.landmark_error_mm, 1) + " mm");
   if (report.input.fan) html += row("Probe, found from the images", escaped(description(*report.input.fan)));
   if (!report.input.found_in_volume.empty())
     html += row("Probe, found in the volume", escaped(report.input.found_in_volume));

@@ -23,6 +23,7 @@ struct RegistrationReport {
   const FreeFormRegistration* free_form = nullptr;  ///< of the sweep, before found.ct_from_sweep; null: not asked for
   const FreeFormSettings* free_form_settings = nullptr;  ///< of free_form
   std::string command{};                                 ///< the arguments that asked for it; empty for a live one
+  std::optional<double> landmark_error_mm{};             ///< of the start, if landmarks gave it
 
   /// Returns the deformation that belongs to the result; null if there is none.
   const FreeFormField* deformation() const {

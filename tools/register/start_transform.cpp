@@ -46,7 +46,7 @@ std::string percent(double share) {
 
 }  // namespace
 
-glm::dmat4 start_from_landmarks(const std::string& file) {
+StartTransform start_from_landmarks(const std::string& file) {
   std::istringstream text(read_file(file, kLargestFile));
   std::vector<double> numbers;
   for (std::string word; text >> word;) {
@@ -73,9 +73,11 @@ glm::dmat4 start_from_landmarks(const std::string& file) {
     throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
                      "add one that lies beside it");
   const Eigen::Matrix4d fit = Eigen::umeyama(in_sweep, in_ct, false);
-  glm::dmat4 result(1.0);
+  StartTransform result;
   for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) result[column][row] = fit(row, column);
+    for (int row = 0; row < 4; ++row) result.ct_from_sweep[column][row] = fit(row, column);
+  const Eigen::MatrixXd apart = (fit.topLeftCorner<3, 3>() * in_sweep).colwise() + fit.topRightCorner<3, 1>() - in_ct;
+  result.landmark_error_mm = std::sqrt(apart.squaredNorm() / double(pairs));
   return result;
 }
 

@@ -13,7 +13,6 @@
 #include "sim/probe/probe.h"
 #include "tools/cli/pose_file.h"
 #include "tools/cli/program.h"
-#include "tools/register/start_transform.h"
 
 namespace insonate {
 namespace {
@@ -49,15 +48,15 @@ SweepInput SweepOptions::input() const {
   return input;
 }
 
-glm::dmat4 SweepOptions::start() const {
+StartTransform SweepOptions::start() const {
   if (!start_file.empty()) {
     // An affine result holds its rigid part too.
     const auto json = nlohmann::json::parse(read_file(start_file, kLargestStart), nullptr, false);
     const bool is_affine = json.is_object() && json.contains("ct_from_sweep_rigid");
-    return read_pose(start_file, is_affine ? "ct_from_sweep_rigid" : "ct_from_sweep").matrix();
+    return {read_pose(start_file, is_affine ? "ct_from_sweep_rigid" : "ct_from_sweep").matrix(), std::nullopt};
   }
   if (!landmarks_file.empty()) return start_from_landmarks(landmarks_file);
-  return glm::dmat4(1.0);
+  return {};
 }
 
 std::vector<CLI::Option*> declare_sweep_options(CLI::App& arguments, SweepOptions& options) {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <glm/mat4x4.hpp>
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/register/read_sweep.h"
+#include "tools/register/start_transform.h"
 
 namespace insonate {
 
@@ -24,8 +24,8 @@ struct SweepOptions {
 
   /// Returns the input that the options describe, without a file. Throws InputError.
   SweepInput input() const;
-  /// Returns ct_from_sweep where the search begins; the identity if no option gives it. Throws InputError.
-  glm::dmat4 start() const;
+  /// Returns where the search begins: the identity if no option gives it. Throws InputError.
+  StartTransform start() const;
 };
 
 /// Declares --probe, --probe-file, --depth, --image-to-probe, --face-pixel, --clip, --mask, --start and --landmarks.

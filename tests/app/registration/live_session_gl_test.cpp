@@ -331,6 +331,33 @@ TEST_CASE("images that carry their own place are registered, with the probe that
   CHECK(live.session.depth_mm() == Approx(kDepth_mm).margin(1));
 }
 
+// A probe in the air shows the receiver's noise alone, which time gain lifts in the depth: a fan of its own.
+TEST_CASE("a probe that is lifted off at first is found as what it is when it touches the skin") {
+  constexpr std::size_t kLifted = 40;
+  test::Scan scan = patient().scan;
+  Image<std::uint8_t> noise = scan.images.front();
+  const auto dark = std::ptrdiff_t(0.75 * noise.height) * noise.width;
+  std::fill_n(noise.pixels.begin(), dark, std::uint8_t(0));
+  std::vector<Image<std::uint8_t>> lifted(kLifted, noise);
+  for (std::size_t n = 0; n < kLifted; ++n)  // so that it changes, as noise does
+    for (std::size_t i = n % 3; i < lifted[n].pixels.size(); i += 3) lifted[n].pixels[i] /= 2;
+  scan.images.insert(scan.images.begin(), lifted.begin(), lifted.end());
+  const Pose at_first = scan.tracker_from_probe.front();
+  scan.tracker_from_probe.insert(scan.tracker_from_probe.begin(), kLifted, at_first);
+
+  const test::SweepPlayer player(scan);
+  LiveRequest begun = request(player, test::start_off_by(scan, {2, 2, -2}, 3));
+  begun.input.probe.reset();
+  begun.input.depth_mm.reset();
+  Live live(begun);
+  live.wait_for([&] { return live.session.fan().has_value(); });
+  REQUIRE(std::abs(live.session.fan()->probe.radius_mm - 60) > 3);
+  live.wait_for([&] { return std::abs(live.session.fan()->probe.radius_mm - 60) < 1.5; });
+  CHECK(live.session.depth_mm() == Approx(kDepth_mm).margin(1));
+  CHECK(live.session.state().rounds == 0);
+  CHECK(live.comes_near());
+}
+
 TEST_CASE("what lies where the CT cuts the body is not compared while the probe moves either") {
   const test::Scan& scan = patient().scan;
   const auto tissue_from = [](double feet_mm) {  // of which a twelfth of 96 mm is left out

@@ -151,6 +151,8 @@ class Pictures(unittest.TestCase):
             insonate.Probe("linear", width=3)
         with self.assertRaises(ValueError):
             insonate.Probe("linear", lines=0)
+        with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000, not between 0.1 and 1000"):
+            self.simulator.set_probe("linear", 5000)
         with self.assertRaises(TypeError):
             self.simulator.set_probe(3)
         self.simulator.set_probe(insonate.Probe("linear", lines=64, width_mm=50), 60)

@@ -103,7 +103,9 @@ TEST_CASE("a recording that cannot be registered is refused in a sentence") {
   recorded.record(usual_matrix(), 0);
   recorded.refused("the images show nothing in the probe's fan: it is of one grey level");
   recorded.record(usual_matrix(), 5, PoseStatus::missing);
-  recorded.refused("fewer than two of its images have a pose; name the probe's with --transform.");
+  recorded.refused(
+      "fewer than two of its images have a pose whose status is OK; name the probe's transform with --transform; "
+      "frames without a status of it count as lost.");
 
   glm::dmat4 off_plane = usual_matrix();
   off_plane[3].z = 3;

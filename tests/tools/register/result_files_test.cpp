@@ -152,9 +152,15 @@ TEST_CASE("landmarks give the start that maps them, and bad ones are refused in 
     const glm::dvec4 in_ct = truth * glm::dvec4(point, 1);
     text << point.x << " " << point.y << " " << point.z << " " << in_ct.x << " " << in_ct.y << " " << in_ct.z << "\n";
   }
-  const glm::dmat4 found = start_from_landmarks(folder.put("landmarks.txt", text.str()).string());
+  const StartTransform found = start_from_landmarks(folder.put("landmarks.txt", text.str()).string());
   for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) CHECK(found[column][row] == Approx(truth[column][row]).margin(1e-9));
+    for (int row = 0; row < 4; ++row)
+      CHECK(found.ct_from_sweep[column][row] == Approx(truth[column][row]).margin(1e-9));
+  CHECK(found.landmark_error_mm.value() == Approx(0).margin(1e-9));
+  // Two triangles with legs of 60 and 66 mm: with both centred, corners are 2, 2 and 8^(1/2) mm apart.
+  const std::string wider = "0 0 0 0 0 0  60 0 0 66 0 0  0 60 0 0 66 0";
+  CHECK(start_from_landmarks(folder.put("wider.txt", wider).string()).landmark_error_mm.value() ==
+        Approx(std::sqrt((8 + 20 + 20) / 3.0)));
   const auto refused = [&](const std::string& bad, const std::string& sentence) {
     const std::string file = folder.put("bad.txt", bad).string();
     CHECK_THROWS_WITH(start_from_landmarks(file), Catch::Contains(sentence));

@@ -78,7 +78,8 @@ class Case:
         """From (i, j, k, 1) to patient mm, 4 x 4."""
 
 def open_case(path: Union[str, PathLike[str]]) -> Case:
-    """Opens a case folder, a CT file or a DICOM folder. Raises InputError."""
+    """Opens a case folder, a CT file or a DICOM folder. A scan with voxels of more than 1 mm is resampled to that. One
+    without views gets "front" and "right_flank", if it shows a body. Raises InputError."""
 
 def phantom(**options: Union[bool, float, str]) -> Case:
     """Makes the built-in patient, or takes it from the cache. Options are those of its recipe, such as gallstone=True.
@@ -124,7 +125,8 @@ class Simulator:
     def close(self) -> None:
         """Frees the graphics memory. Drawing then raises RuntimeError."""
     def set_probe(self, probe: Union[str, Probe], depth_mm: float | None = None) -> None:
-        """Sets the probe, the depth and the trainer's settings for them; only the size of pictures stays."""
+        """Sets the probe, the depth (0.1 to 1000 mm) and the trainer's settings for them; only the size of pictures
+        stays. Raises InputError."""
     @property
     def probe(self) -> Probe: ...
     @property
