@@ -130,9 +130,9 @@ private:
   SweepWindow window_;
   State state_;
   bool refines_ = true, wants_wide_ = false, has_wide_ = false;
-  bool refused_ = false;       // the images of done_window_, by prepare_
-  bool is_settled_ = false;    // a round with all the images that it may have, or a wide one, has ended
-  glm::dmat4 confirmed_{1.0};  // where the last wide search that converged ended; moves with the rounds that agree
+  bool refused_ = false;                       // the images of done_window_, by prepare_
+  bool is_settled_ = false;                    // a round with all the images that it may have, or a wide one, has ended
+  glm::dmat4 confirmed_{1.0};                  // where the last wide search that converged ended
   std::uint64_t done_window_ = 0, epoch_ = 0;  // the epoch changes with each reset
   std::atomic<bool> held_{false}, ending_{false};
   std::thread thread_;

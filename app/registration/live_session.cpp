@@ -14,15 +14,17 @@
 namespace insonate {
 namespace {
 
+constexpr double kSamePixel = 0.02;     // of a pixel's size
 constexpr std::size_t kFirstLook = 24;  // images in which the fan is sought first, and again at twice as many each time
 
-/// Whether two fans are the same but for what a few pixels of echo more or less at their edges change.
+/// Whether two fans are the same but for what a few pixels of echo more or less at their edges change. A depth that was
+/// found too small for want of echo only leaves that part out.
 bool are_alike(const FoundFan& a, const FoundFan& b) {
-  constexpr double kPixels = 4, kShare = 0.03, kAngle_deg = 2;
+  constexpr double kPixels = 4, kShare = 0.03, kDepthShare = 0.25, kAngle_deg = 2;
   const auto is_near = [](double x, double y) { return std::abs(x - y) <= kShare * std::max(x, y); };
   return a.probe.kind == b.probe.kind && glm::distance(a.face_pixel, b.face_pixel) <= kPixels &&
-         is_near(a.depth_mm, b.depth_mm) && is_near(a.probe.radius_mm, b.probe.radius_mm) &&
-         is_near(a.probe.width_mm, b.probe.width_mm) &&
+         std::abs(a.depth_mm - b.depth_mm) <= kDepthShare * std::max(a.depth_mm, b.depth_mm) &&
+         is_near(a.probe.radius_mm, b.probe.radius_mm) && is_near(a.probe.width_mm, b.probe.width_mm) &&
          std::abs(a.probe.field_of_view_deg - b.probe.field_of_view_deg) <= kAngle_deg;
 }
 
@@ -58,6 +60,12 @@ void LiveSession::update(double now_s) {
       if (!input_.probe_from_pixel)
         if (const auto why = why_not_image_matrix(image.frame_from_pixel))
           throw InputError(input_.file, "", "its images: " + *why, "give their place as --image-to-probe FILE");
+      if (const glm::dvec2 mm = pixel_size(image.frame_from_pixel); !input_.probe_from_pixel) {
+        if (!pixel_mm_) pixel_mm_ = mm;
+        if (glm::distance(mm, *pixel_mm_) > kSamePixel * glm::length(mm))
+          throw InputError(input_.file, "", "the size of its pixels has changed, as with another depth",
+                           "go back to the depth before, or start again");
+      }
       if (!request_.input.probe) look_for_fan(image);
       if (input_.probe) show(std::move(image), now_s);
     } catch (const InputError& error) {
@@ -81,8 +89,8 @@ void LiveSession::look_for_fan(const igtl::TrackedImage& image) {
     return;
   }
   // A probe that was lifted off when it began shows a part of its fan, or only noise: all that was found is void.
+  registrar_.reset();  // whose thread reads the input
   input_ = input;
-  registrar_.reset();
   newest_.reset();
 }
 
@@ -153,17 +161,22 @@ std::filesystem::path LiveSession::save(const std::filesystem::path& folder) con
   const auto last = state().last;
   if (!last)
     throw InputError(folder.string(), "", "nothing has been registered yet", "wait for the first round, and save then");
+  return save(folder, *last);
+}
+
+std::filesystem::path LiveSession::save(const std::filesystem::path& to, const LiveRound& round) const {
+  const std::filesystem::path folder = to.has_filename() ? to : to.parent_path();
   std::filesystem::path name = folder;
   std::error_code error;
   for (int n = 2; std::filesystem::exists(name, error); ++n) name = folder.string() + "-" + std::to_string(n);
   ReadSweep read;
-  read.sweep = last->sweep;
+  read.sweep = round.sweep;
   read.fan = fan_;
   read.frames = std::size_t(stream_.received());
   read.left_out = std::size_t(stream_.unplaced());
   write_registration(name,
                      RegistrationReport{std::string(request_.subject), std::string(request_.tracker), read,
-                                        request_.settings, last->found, std::vector<ComparisonPictures>()},
+                                        request_.settings, round.found, std::vector<ComparisonPictures>()},
                      subject_.ct);
   return name;
 }

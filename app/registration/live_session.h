@@ -79,6 +79,8 @@ public:
   /// Writes the last round as insonate-register does, into a folder of this name or the next that is free: NAME-2.
   /// Returns it. Throws InputError if there is no round yet, or if it cannot be written.
   std::filesystem::path save(const std::filesystem::path& folder) const;
+  /// The same for a round of state().last.
+  std::filesystem::path save(const std::filesystem::path& folder, const LiveRound& round) const;
 
 private:
   void look_for_fan(const igtl::TrackedImage& image);
@@ -96,7 +98,8 @@ private:
   std::unique_ptr<LiveRegistrar> registrar_;
   std::optional<Shown> newest_;
   std::vector<igtl::TrackedImage> arrived_;
-  int width_ = 0, height_ = 0;  // of the first image
+  int width_ = 0, height_ = 0;          // of the first image
+  std::optional<glm::dvec2> pixel_mm_;  // likewise, where images place themselves
   long shown_count_ = 0;
   double taken_s_ = -1e300;
   std::string problem_;  // of the images

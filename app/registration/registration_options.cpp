@@ -46,13 +46,14 @@ void declare_registration(CLI::App& arguments, RegistrationOptions& options) {
   mode.add_option("--slices", options.settings.slices, "Use this many of the newest images, well spread")
       ->check(CLI::Range(int(LiveRegistrar::kMinImages), 100))
       ->capture_default_str();
-  mode.add_flag_callback(
+  CLI::Option* no_refining = mode.add_flag_callback(
       "--no-refining", [&options] { options.refines = false; }, "Do not refine until the button is pressed");
   mode.add_option("--out", options.out, "Save to this new folder, or to the next free name: NAME-2")
       ->type_name("FOLDER")
       ->capture_default_str();
   mode.add_flag("--headless", options.headless,
-                "Run without a window: search widely, refine until it has converged, save, and end");
+                "Run without a window: search widely, refine until it has converged, save, and end")
+      ->excludes(no_refining);
   mode.add_option("--seconds", options.seconds, "End after this many seconds")
       ->check(CLI::Range(0.0, 86400.0))
       ->default_str("60 without a window");

@@ -154,7 +154,10 @@ struct Run {
                  deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);
     if (mm > settings.search_mm + kBasin_mm || deg > settings.search_deg + kBasin_deg)
       doubt("the search left its range around the start");
-    if (!confirmed) doubt("no second search found the same place");
+    if (settings.search_mm == 0 && settings.search_deg == 0)
+      doubt(kNotSearched);
+    else if (!confirmed)
+      doubt("no second search found the same place");
     if (result.runner_up > kAmbiguous * result.similarity_after) doubt("another place is nearly as similar");
     if (end.value < kStandsOut * result.elsewhere) doubt("places far away are nearly as similar");
     if (settings.measure == Measure::mutual_information) return;
@@ -252,7 +255,6 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
     for (Optimum& each : of_round) rough.push_back(std::move(each));
     rough = run.distinct(std::move(rough), kFineStarts);
-    run.confirmed = run.confirmed || !wanders;
     if (!wanders) break;
     if (run.confirmed && run.rival_of(rough.front(), ends) < kAmbiguous * rough.front().value) break;
   }

@@ -49,7 +49,8 @@ struct RegistrationSettings {
 /// the similarity shows it. So no registration of them counts as converged.
 inline constexpr double kMinSpread_mm = 25;
 inline constexpr const char* kTooClose =
-    "the images lie too close together to tell one place from another";  ///< a doubt
+    "the images lie too close together to tell one place from another";                    ///< a doubt
+inline constexpr const char* kNotSearched = "no wide search has looked for other places";  ///< a doubt
 
 /// One evaluation of the similarity.
 struct Evaluation {

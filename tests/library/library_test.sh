@@ -24,6 +24,11 @@ cp -r "$examples" "$work/project"
 for log in "$work"/moved/share/insonate/logs/*.igs.mha; do
   [ -f "${log%.igs.mha}.toml" ] || fail "no plan lies beside $log"
 done
+# No header is installed without the library that it declares.
+for room in "$work"/moved/include/insonate/sim/*/; do
+  compgen -G "$work/moved/lib*/libinsonate_$(basename "$room").a" >/dev/null ||
+    compgen -G "$work/moved/lib*/*/libinsonate_$(basename "$room").a" >/dev/null || fail "no library for $room"
+done
 # Debugging information may name the sources; nothing that the project reads may.
 named=$(grep -rlF --include='*.cmake' --include='*.h' "$(cd "$build/../.." && pwd)" "$work/moved") || true
 [ -z "$named" ] || fail "the install names the source tree: $named"

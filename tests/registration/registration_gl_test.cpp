@@ -129,7 +129,7 @@ TEST_CASE("an affine registration finds a stretch that a rigid one cannot") {
 
 TEST_CASE("images that lie close together do not converge, even at the right place") {
   Fixture f;
-  f.settings.search_mm = f.settings.search_deg = 0;
+  f.settings.search_mm = f.settings.search_deg = 3;
   TrackedSweep narrow = f.sweep;
   narrow.images.resize(4);
   CHECK(spread_mm(f.sweep) > kMinSpread_mm);
@@ -137,6 +137,13 @@ TEST_CASE("images that lie close together do not converge, even at the right pla
   CHECK(SweepRegistrar(f.body, f.sweep, f.settings).from(glm::dmat4(1.0)).converged());
   const SweepRegistration found = SweepRegistrar(f.body, narrow, f.settings).from(glm::dmat4(1.0));
   CHECK(std::ranges::count(found.doubts, "the images lie too close together to tell one place from another") == 1);
+}
+
+TEST_CASE("a registration that has not looked for other places does not converge, even at the right one") {
+  Fixture f;
+  f.settings.search_mm = f.settings.search_deg = 0;
+  const SweepRegistration found = SweepRegistrar(f.body, f.sweep, f.settings).from(glm::dmat4(1.0));
+  CHECK(found.doubts == std::vector<std::string>{kNotSearched});
 }
 
 TEST_CASE("images of noise do not converge, however far is searched") {

@@ -143,6 +143,10 @@ void add_registration(CLI::App& arguments, Given& given, Run& run) {
         const std::string& file = wanted->table_file;
         bench::Table table = file.empty() ? bench::measure_registration(request, wanted->request)
                                           : bench::Table::parse(file, read_file(file));
+        for (const char* column : {"case", "view", "measure", "start_error_mm"})
+          if (std::ranges::find(table.columns, column) == table.columns.end())
+            throw InputError(file, "", std::string("there is no column '") + column + "'",
+                             "name a table of insonate-bench registration");
         const std::string name = file.empty() ? "the table" : file;
         bench::print_summaries(bench::summaries_of(name, table));
         if (!given.svg.empty()) write_file(given.svg, bench::registrations_svg(name, table));

@@ -208,6 +208,11 @@ void DatasetFolder::complete() const {
       if (summary.study_digest != json.at("study").at("digest"))
         throw InputError(shard_file(shard).string(), "", "it is a shard of another study",
                          "remove it, and make the shard again");
+      if (shard > first && patient["digest"] != summary.case_digest)
+        throw InputError(shard_file(shard).string(), "",
+                         "its patient is not that of the shards before: the files of '" +
+                             patient.at("name").get<std::string>() + "' have changed meanwhile",
+                         "remove the shards of this patient, and make them again");
       devices.insert(summary.device);
       patient["digest"] = summary.case_digest;
       shards.push_back(
@@ -241,15 +246,16 @@ std::uint32_t DatasetFolder::take_shards_of(const DatasetFolder& other) const {
       throw InputError(other.path_.string(), "", "it holds the dataset of another study, program or tissue table",
                        "merge folders of the same study alone");
   std::uint32_t moved = 0;
-  for (std::uint32_t shard = 0; shard < shards(); ++shard) {
+  const std::uint32_t count = shards();
+  for (std::uint32_t shard = 0; shard < count; ++shard) {
     if (has_shard(shard) || !other.has_shard(shard)) continue;
     const fs::path from = other.shard_file(shard);
     if (rename_to_new(from, shard_file(shard)) == Renamed::on_another_disk) {
       std::error_code error;
       const fs::path near = temporary_for(shard);
       fs::copy_file(from, near, fs::copy_options::overwrite_existing, error);
-      if (error) {
-        const std::string why = error.message();
+      if (error || !flush_to_disk(near)) {
+        const std::string why = error ? error.message() : "it cannot be flushed to the disk";
         fs::remove(near, error);
         throw InputError(from.string(), "", "it cannot be copied (" + why + ")",
                          "check the permissions and free space of both folders");

@@ -23,11 +23,12 @@ public:
   double within(const NumberRange& range, std::string_view what, std::uint32_t attempt = 0) const {
     return range.least + double(unit_float(bits(what, attempt))) * (range.most - range.least);
   }
-  /// Returns one of the range's steps; any number if it has no step.
+  /// Returns one of the range's steps; any number if it has no step, or more than a million.
   double step_of(const SteppedRange& stepped, std::string_view what) const {
     if (stepped.step <= 0) return within(stepped.range, what);
     constexpr double kRounding = 1e-9;  // so that 0.3 at steps of 0.1 counts as three steps
     const double steps = std::floor((stepped.range.most - stepped.range.least) / stepped.step + kRounding);
+    if (steps > 1e6) return within(stepped.range, what);
     return stepped.range.least + stepped.step * double(below(std::uint32_t(steps) + 1, what));
   }
   /// Returns a whole number below `count`, which is 1 or more.

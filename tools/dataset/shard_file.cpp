@@ -239,10 +239,14 @@ void ShardWriter::finish() {
   for (Id& map : s.maps) closed = map.close() && closed;
   closed = s.file.close() && closed;
   s.need(closed);
-  const int descriptor = open(s.temporary.c_str(), O_RDONLY);
+  s.need(flush_to_disk(s.temporary));
+}
+
+bool flush_to_disk(const std::filesystem::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY);
   const bool kept = descriptor >= 0 && fsync(descriptor) == 0;
   if (descriptor >= 0) close(descriptor);
-  s.need(kept);
+  return kept;
 }
 
 ShardSummary read_shard_summary(const std::filesystem::path& path) {

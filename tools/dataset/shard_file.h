@@ -42,6 +42,9 @@ private:
   std::unique_ptr<State> state_;
 };
 
+/// Waits until a file is on the disk. Returns false if that fails.
+bool flush_to_disk(const std::filesystem::path& file);
+
 /// What a shard states of itself.
 struct ShardSummary {
   std::string study_digest, case_digest, device;

@@ -41,7 +41,12 @@ public:
   template <typename Use>
   void with(const char* name, const Use& use) {
     if (!object_) throw std::runtime_error(std::string("the ") + name + " is closed; open a new one");
-    on_graphics_thread([&] { use(*object_); });
+    // Another thread may close it meanwhile; the last one that holds it lets go of it on the graphics thread.
+    std::shared_ptr<T> held = object_;
+    on_graphics_thread([&] {
+      const std::shared_ptr<T> mine = std::move(held);
+      use(*mine);
+    });
   }
 
 private:

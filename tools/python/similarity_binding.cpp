@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -44,6 +45,9 @@ public:
     }
     if (const auto why = why_not_valid(settings))
       throw InputError(settings_file ? settings_file->string() : "ultrasound", "", *why, "give another size or file");
+    if (std::any_of(ultrasound.data(), ultrasound.data() + ultrasound.size(),
+                    [](float each) { return std::isinf(each); }))
+      throw InputError("ultrasound", "", "it has infinite values", "replace them, or exclude them by NaN");
     Image<float> image(settings.image_width, settings.image_height);
     std::copy(ultrasound.data(), ultrasound.data() + ultrasound.size(), image.pixels.begin());
     const Case& patient = held->subject;
@@ -53,7 +57,7 @@ public:
       volume = make_acoustic_volume(patient.ct, patient.labels, tissue_by_label(patient), tissues());
     }
     gl::within_device("ultrasound", "take a smaller image", [&] { simulator_.open(volume, probe, depth, settings); });
-    simulator_.with("registration", [&](gl::WeinSimulator& simulator) { simulator.set_ultrasound(mirrored(image)); });
+    simulator_.with("comparison", [&](gl::WeinSimulator& simulator) { simulator.set_ultrasound(mirrored(image)); });
   }
 
   void close() { simulator_.close(); }
@@ -61,7 +65,7 @@ public:
   py::array_t<float> similarity(const Doubles& matrices) {
     const std::vector<Pose> poses = poses_of(matrices);
     std::vector<float> values;
-    simulator_.with("registration", [&](gl::WeinSimulator& simulator) { values = simulator.similarity(poses); });
+    simulator_.with("comparison", [&](gl::WeinSimulator& simulator) { values = simulator.similarity(poses); });
     return array_of(std::move(values), {py::ssize_t(poses.size())});
   }
 

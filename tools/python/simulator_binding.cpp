@@ -1,6 +1,8 @@
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "sim/core/input_error.h"
@@ -23,11 +25,27 @@ namespace {
 
 SettingValue setting_value(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
-  if (py::isinstance<py::int_>(value)) return value.cast<std::int64_t>();
-  if (py::isinstance<py::float_>(value)) return value.cast<double>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  return value.cast<std::vector<double>>();
+  try {
+    // Of NumPy too, whose numbers are none of Python's types.
+    if (PyIndex_Check(value.ptr())) return py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>();
+    if (PyNumber_Check(value.ptr()) && !py::isinstance<py::array>(value))
+      return py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
+    return value.cast<std::vector<double>>();
+  } catch (const py::cast_error&) {
+  } catch (const py::error_already_set&) {
+  }
+  throw InputError("settings", "", std::string(py::str(value)) + " is no value of a setting",
+                   "give a number, True or False, a text, or a list of numbers");
 }
+
+/// What a picture is of. Each call takes a copy under Python's lock, because another thread may change it meanwhile.
+struct State {
+  Probe probe;
+  double depth_mm = 0;
+  Settings settings;
+  Pose pose;
+};
 
 /// A simulator with its patient. Pictures are as clinics show them: the probe's marker on the left.
 class SimulatorBinding {
@@ -48,7 +66,7 @@ public:
     } else {
       const ReferenceView& view = patient.views.front();
       set_probe(py::str(view.probe), view.depth_mm);
-      pose_ = view.patient_from_probe;
+      state_.pose = view.patient_from_probe;
     }
   }
 
@@ -59,21 +77,21 @@ public:
     const double depth = depth_mm.value_or(probe.depth_mm);
     gl::check_probe("Simulator", probe, depth);
     Settings settings = trainer_settings(probe.frequency_mhz, depth);
-    settings.image_width = settings_.image_width;
-    settings.image_height = settings_.image_height;
-    probe_ = probe;
-    depth_mm_ = depth;
-    settings_ = settings;
+    settings.image_width = state_.settings.image_width;
+    settings.image_height = state_.settings.image_height;
+    state_.probe = probe;
+    state_.depth_mm = depth;
+    state_.settings = settings;
   }
 
   py::dict settings() const {
     py::dict all;
-    for (const auto& [name, value] : named_settings(settings_)) all[py::str(name)] = py::cast(value);
+    for (const auto& [name, value] : named_settings(state_.settings)) all[py::str(name)] = py::cast(value);
     return all;
   }
 
   void set(const py::kwargs& changes) {
-    Settings settings = settings_;
+    Settings settings = state_.settings;
     for (const auto& [key, value] : changes) {
       const std::string name = py::str(key);
       std::vector<std::string> known;
@@ -83,18 +101,18 @@ public:
       if (const auto why = set_setting(settings, name, setting_value(value)))
         throw InputError("settings", "", *why, "give such a value");
     }
-    settings_ = settings;
+    state_.settings = settings;
   }
 
-  py::array_t<double> pose() const { return array_of(pose_.matrix()); }
-  void set_pose(const Doubles& matrix) { pose_ = pose_of(matrix); }
+  py::array_t<double> pose() const { return array_of(state_.pose.matrix()); }
+  void set_pose(const Doubles& matrix) { state_.pose = pose_of(matrix); }
 
   py::array_t<std::uint8_t> image() {
+    const State now = state_;
     Image<std::uint8_t> grey;
     with([&](gl::Simulator& simulator) {
-      prepare(simulator);
-      simulator.set_pose(pose_);
-      grey = read(simulator);
+      prepare(simulator, now);
+      grey = read(simulator, now.settings);
     });
     return array_of(mirrored(grey));
   }
@@ -102,25 +120,28 @@ public:
   /// Draws all poses in one call, and computes their labels at will.
   py::object images(const Doubles& matrices, bool with_labels) {
     const std::vector<Pose> poses = poses_of(matrices);
-    const std::size_t pixels = std::size_t(settings_.image_width) * std::size_t(settings_.image_height);
+    const State now = state_;
+    const std::size_t pixels = std::size_t(now.settings.image_width) * std::size_t(now.settings.image_height);
     std::vector<std::uint8_t> grey(poses.size() * pixels);
     const auto keep = [&](std::vector<std::uint8_t>& all, std::size_t i, const Image<std::uint8_t>& image) {
       const Image<std::uint8_t> shown = mirrored(image);
       std::copy(shown.pixels.begin(), shown.pixels.end(), all.begin() + std::ptrdiff_t(i * pixels));
     };
     with([&](gl::Simulator& simulator) {
-      prepare(simulator);
+      prepare(simulator, now);
       for (std::size_t i = 0; i < poses.size(); ++i) {
         simulator.set_pose(poses[i]);
-        keep(grey, i, read(simulator));
+        keep(grey, i, read(simulator, now.settings));
       }
     });
-    const std::vector<py::ssize_t> shape{py::ssize_t(poses.size()), settings_.image_height, settings_.image_width};
+    const std::vector<py::ssize_t> shape{py::ssize_t(poses.size()), now.settings.image_height,
+                                         now.settings.image_width};
     if (!with_labels) return array_of(std::move(grey), shape);
     std::vector<std::uint8_t> label(grey.size()), visible(grey.size()), reach(grey.size());
     {
       const py::gil_scoped_release without_lock;
-      truth_.set_view(probe_, depth_mm_, settings_);
+      const std::lock_guard alone(truth_mutex_);
+      truth_.set_view(now.probe, now.depth_mm, now.settings);
       for (std::size_t i = 0; i < poses.size(); ++i) {
         const PictureTruth truth = truth_.at(poses[i]);
         keep(label, i, truth.label);
@@ -137,11 +158,13 @@ public:
   }
 
   py::dict truth() {
+    const State now = state_;
     PictureTruth truth;
     {
       const py::gil_scoped_release without_lock;
-      truth_.set_view(probe_, depth_mm_, settings_);
-      truth = truth_.at(pose_);
+      const std::lock_guard alone(truth_mutex_);
+      truth_.set_view(now.probe, now.depth_mm, now.settings);
+      truth = truth_.at(now.pose);
     }
     py::dict all;
     all["label"] = array_of(mirrored(truth.label));
@@ -153,10 +176,10 @@ public:
   }
 
   py::dict stages() {
+    const State now = state_;
     Stages<float> stages;
     with([&](gl::Simulator& simulator) {
-      prepare(simulator);
-      simulator.set_pose(pose_);
+      prepare(simulator, now);
       stages = simulator.read_stages();
     });
     py::dict all;
@@ -181,10 +204,12 @@ public:
   }
 
   py::array_t<double> patient_from_pixel() const {
-    const ImageGeometry geometry = image_geometry(probe_, depth_mm_, settings_.image_width, settings_.image_height);
+    const Settings& settings = state_.settings;
+    const ImageGeometry geometry =
+        image_geometry(state_.probe, state_.depth_mm, settings.image_width, settings.image_height);
     glm::dmat4 drawn_from_shown(1.0);
     drawn_from_shown[0][0] = -1;
-    drawn_from_shown[3][0] = settings_.image_width - 1;
+    drawn_from_shown[3][0] = settings.image_width - 1;
     return array_of(python_matrix(geometry) * drawn_from_shown);
   }
 
@@ -194,8 +219,8 @@ public:
     return text;
   }
 
-  const Probe& probe() const { return probe_; }
-  double depth_mm() const { return depth_mm_; }
+  const Probe& probe() const { return state_.probe; }
+  double depth_mm() const { return state_.depth_mm; }
 
 private:
   template <typename Use>
@@ -204,26 +229,25 @@ private:
       gl::within_device("settings", "take fewer samples, lines or pixels", [&] { use(simulator); });
     });
   }
-  void prepare(gl::Simulator& simulator) const {
-    simulator.set_probe(probe_, depth_mm_);
-    simulator.set_settings(settings_);
+  static void prepare(gl::Simulator& simulator, const State& now) {
+    simulator.set_probe(now.probe, now.depth_mm);
+    simulator.set_settings(now.settings);
+    simulator.set_pose(now.pose);
   }
-  Image<std::uint8_t> read(gl::Simulator& simulator) const {
-    Image<std::uint8_t> grey(settings_.image_width, settings_.image_height);
+  static Image<std::uint8_t> read(gl::Simulator& simulator, const Settings& settings) {
+    Image<std::uint8_t> grey(settings.image_width, settings.image_height);
     simulator.image().read(GL_RED, GL_UNSIGNED_BYTE, grey.pixels.data(), grey.pixels.size());
     return grey;
   }
   glm::dmat4 python_matrix(const ImageGeometry& geometry) const {
-    return insonate::patient_from_pixel(geometry, pose_);
+    return insonate::patient_from_pixel(geometry, state_.pose);
   }
 
   CasePtr case_;
   TruthMaker truth_;
+  std::mutex truth_mutex_;  // which is taken without Python's lock
   OnGraphicsThread<gl::Simulator> simulator_;
-  Probe probe_;
-  double depth_mm_ = 0;
-  Settings settings_;
-  Pose pose_;
+  State state_;
 };
 
 }  // namespace

@@ -125,7 +125,10 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str()
       ->needs(free);
-  arguments.add_option("--search-mm", settings.search_mm, "Search this far around the start, mm; 0: do not scatter")
+  arguments
+      .add_option("--search-mm", settings.search_mm,
+                  "Search this far around the start, mm; 0 with --search-deg 0 follows the start alone, which does "
+                  "not converge")
       ->check(CLI::Range(0.0, 200.0))
       ->capture_default_str();
   arguments.add_option("--search-deg", settings.search_deg, "Search this far around the start, degrees")
@@ -186,7 +189,6 @@ int main(int argc, char** argv) {
     ReadSweep read =
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
     if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
-    if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
     if (start.landmark_error_mm)
       std::printf("Landmarks: fitted within %.1f mm (root mean square).\n", *start.landmark_error_mm);
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
@@ -198,6 +200,7 @@ int main(int argc, char** argv) {
     if (read.sweep.images.size() < 2)
       throw InputError(recording, "", "at the start fewer than two images show what lies in the CT",
                        "give a nearer --start, or a CT of the region that was scanned");
+    if (spacing_mm) check_deformable(recording, read.sweep, *spacing_mm);
     if (read.share_at_ends > kMentioned)
       std::printf("Left out: %.0f %% of the images, which lie where the CT ends.\n", 100 * read.share_at_ends);
     const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);

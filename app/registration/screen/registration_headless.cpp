@@ -15,6 +15,7 @@
 #include "sim/files/files.h"
 #include "sim/tissue/tissue.h"
 #include "tools/cli/subject.h"
+#include "tools/register/result_files.h"
 
 namespace insonate {
 namespace {
@@ -64,9 +65,9 @@ int run_registration_headless(const RegistrationOptions& options) {
                          formatted("%.0f", state.spread_mm) + " mm; needed are " + to_string(state.needs),
                      "move the probe, or give it more --seconds");
   }
-  const std::filesystem::path saved = session.save(options.out);
+  const std::filesystem::path saved = session.save(options.out, *state.last);
   if (session.fan()) std::printf("Found in the images: %s.\n", description(*session.fan()).c_str());
-  std::printf("%s\nSaved to %s.\n", session.verdict().c_str(), saved.string().c_str());
+  std::printf("%s\nSaved to %s.\n", verdict(state.last->found).c_str(), saved.string().c_str());
   return state.last->found.converged() ? 0 : kNotConverged;
 }
 

@@ -355,7 +355,8 @@ TEST_CASE("a probe that is lifted off at first is found as what it is when it to
   live.wait_for([&] { return std::abs(live.session.fan()->probe.radius_mm - 60) < 1.5; });
   CHECK(live.session.depth_mm() == Approx(kDepth_mm).margin(1));
   CHECK(live.session.state().rounds == 0);
-  CHECK(live.comes_near());
+  live.wait_for([&] { return live.session.state().last != nullptr; });
+  CHECK(live.session.state().last->sweep.probe.radius_mm == Approx(60).margin(1.5));
 }
 
 TEST_CASE("what lies where the CT cuts the body is not compared while the probe moves either") {

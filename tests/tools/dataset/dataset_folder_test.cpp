@@ -26,9 +26,10 @@ namespace {
 constexpr int kSide = 2;
 
 /// Writes a shard of two images, as insonate-dataset would.
-void write_shard(const fs::path& file, std::uint32_t shard, const std::string& study_digest = "0123456789abcdef") {
+void write_shard(const fs::path& file, std::uint32_t shard, const std::string& study_digest = "0123456789abcdef",
+                 const std::string& case_digest = "00112233445566778899aabbccddeeff") {
   const std::vector<std::pair<std::string, std::string>> about{
-      {"study_digest", study_digest}, {"case_digest", "00112233445566778899aabbccddeeff"}, {"device", "llvmpipe"}};
+      {"study_digest", study_digest}, {"case_digest", case_digest}, {"device", "llvmpipe"}};
   fs::create_directories(file.parent_path());
   ShardWriter writer(file, file, {2, kSide, kSide, 3}, about);
   for (std::uint32_t row = 0; row < 2; ++row) {
@@ -124,6 +125,14 @@ TEST_CASE("a dataset is completed by what its shards state, once and for all") {
   H5Tclose(type);
   set.folder.complete();
   CHECK_THAT(read_file(set.manifest), Contains("a\xef\xbf\xbd"));
+}
+
+TEST_CASE("shards of one patient whose files have changed meanwhile do not make a set") {
+  const Set set;
+  fs::remove(set.folder.shard_file(1));
+  write_shard(set.folder.shard_file(1), 1, "0123456789abcdef", "ffeeddccbbaa99887766554433221100");
+  CHECK_THROWS_WITH(set.folder.complete(), Contains("the files of 'abdomen' have changed meanwhile"));
+  CHECK_FALSE(set.folder.is_complete());
 }
 
 TEST_CASE("a manifest that is damaged or foreign is refused before its numbers are used") {

@@ -153,6 +153,27 @@ class Pictures(unittest.TestCase):
             insonate.Probe("linear", lines=0)
         with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000, not between 0.1 and 1000"):
             self.simulator.set_probe("linear", 5000)
+
+    def test_settings_take_the_numbers_of_numpy(self):
+        before = self.simulator.settings["samples"]
+        self.simulator.set(samples=np.int64(128), gain_db=np.float32(3))
+        self.assertEqual(self.simulator.settings["samples"], 128)
+        self.assertEqual(self.simulator.settings["gain_db"], 3)
+        with self.assertRaisesRegex(insonate.InputError, "None is no value of a setting"):
+            self.simulator.set(gain_db=None)
+        self.simulator.set(samples=before, gain_db=0)
+
+    def test_threads_that_share_a_simulator_get_whole_pictures(self):
+        import concurrent.futures
+        poses = np.repeat(self.simulator.pose[None], 3, axis=0)
+        def draw(width):
+            self.simulator.set(image_width=width)
+            images = self.simulator.images(poses, labels=True)
+            return images["image"].shape == images["label"].shape and (images["image"] == images["image"][0]).all()
+        width = self.simulator.settings["image_width"]
+        with concurrent.futures.ThreadPoolExecutor(4) as threads:
+            self.assertTrue(all(threads.map(draw, [64, 512] * 6)))
+        self.simulator.set(image_width=width)
         with self.assertRaises(TypeError):
             self.simulator.set_probe(3)
         self.simulator.set_probe(insonate.Probe("linear", lines=64, width_mm=50), 60)
@@ -222,7 +243,7 @@ class Registrations(unittest.TestCase):
                     similarity = comparison.similarity(poses)
                     self.assertEqual(similarity.dtype, np.float32)
                     self.assertEqual(similarity.argmax(), 2, f"{name}, axis {axis}: {similarity}")
-        with self.assertRaisesRegex(RuntimeError, "the registration is closed"):
+        with self.assertRaisesRegex(RuntimeError, "the comparison is closed"):
             comparison.similarity(poses)
         # Attenuation and shadows differ over a whole image, but little within a patch.
         with insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm, patch=0) as whole:
@@ -233,6 +254,8 @@ class Registrations(unittest.TestCase):
             self.assertLess(mirrored.similarity(poses[2:3])[0], similarity[2])
         with self.assertRaisesRegex(insonate.InputError, "not an array of rows by columns"):
             insonate.ImageSimilarity(case, picture[0], view.probe)
+        with self.assertRaisesRegex(insonate.InputError, "it has infinite values"):
+            insonate.ImageSimilarity(case, np.full(picture.shape, -np.inf), view.probe)
         with self.assertRaisesRegex(insonate.InputError, "there is no such file"):
             insonate.ImageSimilarity(case, picture, view.probe, settings="/nowhere.toml")
 

@@ -16,6 +16,7 @@
 #include "sim/core/image.h"
 #include "sim/core/input_error.h"
 #include "sim/files/png.h"
+#include "sim/reconstruction/tracked_picture.h"
 #include "sim/registration/echo_seen.h"
 #include "sim/registration/find_fan.h"
 #include "tests/core/temporary_folder.h"
@@ -72,6 +73,23 @@ Probe probe_of(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("what an image shows beside the fan is not known") {
+  SweepInput input;
+  input.probe = *find_probe("curvilinear");
+  input.depth_mm = 100;
+  const ImageGeometry geometry = image_geometry(*input.probe, 100, input.width, input.height);
+  const Image<std::uint8_t> grey(input.width, input.height, 50);
+  const SweepImage image = place_image(grey, Pose(), patient_from_pixel(Pose(), geometry), input);
+  int known = 0;
+  for (int y = 1; y + 1 < input.height; ++y)  // at the image's own edge half of the filter's weights are missing
+    for (int x = 1; x + 1 < input.width; ++x) {
+      const bool is_known = !std::isnan(image.grey.at(x, y));
+      known += is_known;
+      if (is_known != line_position(*input.probe, 100, geometry.plane_mm(x, y)).has_value()) FAIL(x << " " << y);
+    }
+  CHECK(known > input.width * input.height / 2);
+}
 
 TEST_CASE("a recording is read with its images at the probe's face") {
   Recorded recorded;

@@ -90,12 +90,12 @@ Table measure_registration(const Request& request, const RegistrationRequest& wa
                     found.converged() ? "yes" : "no", found.similarity_after, found.runner_up, found.evaluations.size(),
                     found.seconds);
         std::fflush(stdout);
-        table.rows.push_back({gl::device_description(), scene.name, scene.view, name, std::to_string(i),
-                              cell_of(start.mm, 2), cell_of(start.deg, 2), cell_of(start_error, 2), cell_of(error, 3),
-                              cell_of(found.expected_error_mm, 3), found.converged() ? "1" : "0",
-                              cell_of(found.similarity_after, 5), cell_of(found.runner_up, 5),
-                              std::to_string(found.evaluations.size()), cell_of(found.seconds, 3),
-                              cell_of(registrar.seconds_to_prepare(), 3)});
+        table.rows.push_back({gl::device_description(), scene.name, scene.view, name,
+                              std::to_string(wanted.first_start + i), cell_of(start.mm, 2), cell_of(start.deg, 2),
+                              cell_of(start_error, 2), cell_of(error, 3), cell_of(found.expected_error_mm, 3),
+                              found.converged() ? "1" : "0", cell_of(found.similarity_after, 5),
+                              cell_of(found.runner_up, 5), std::to_string(found.evaluations.size()),
+                              cell_of(found.seconds, 3), cell_of(registrar.seconds_to_prepare(), 3)});
       }
     }
   });

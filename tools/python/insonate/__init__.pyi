@@ -135,7 +135,8 @@ class Simulator:
     def settings(self) -> dict[str, Any]:
         """All settings by name. Change them with set()."""
     def set(self, **settings: Any) -> None:
-        """Sets settings by name: set(gain_db=3, image_width=512). If one cannot be used, all stay. Raises InputError."""
+        """Sets settings by name: set(gain_db=3, image_width=512). If one cannot be used, all stay. Pictures are of a probe
+        at rest, so persistence changes nothing. Raises InputError."""
     @property
     def pose(self) -> NDArray[np.float64]:
         """patient_from_probe, 4 x 4, in mm (LPS). Any rigid matrix can be set. Raises InputError for another one."""
@@ -151,10 +152,10 @@ class Simulator:
     def truth(self) -> Truth:
         """What is known of the picture: per pixel the label, the label where the sound arrives, and the reach (0 outside
         the fan, 1 in shadow, 2 where the sound arrives); per scan line the distance to the skin in mm, negative where
-        the face is pressed in."""
+        the face is pressed in. Pixels have the marker on the left; line 0 is at the right of the picture."""
     def stages(self) -> Stages:
         """The stages of the picture, as sim/model/stages.h has them: fused, inside and image are pixels, the others are
-        on scan lines, [sample, line]."""
+        on scan lines, [sample, line]. Line 0 is at the right of the picture."""
     @property
     def patient_from_pixel(self) -> NDArray[np.float64]:
         """From (column, row, 0, 1) of the picture to patient mm, 4 x 4."""
