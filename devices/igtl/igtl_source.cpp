@@ -162,6 +162,7 @@ void ClientSource::replay_read(insonate::Bytes bytes, double time_s, LiveBatch& 
       break;
     case MessageReader::Damage::crc:
       ++damaged_;
+      damaged_s_ = arrival_s_;
       break;
     case MessageReader::Damage::not_igtl:
       give_up("What " + where_ + " sends is not OpenIGTLink: check the port.");
@@ -240,7 +241,8 @@ std::string ClientSource::note(double now_s) const {
     return where_ + " sends " + names + " but no transform '" + followed_ +
            "': name the one that is the probe's, as in igtl://" + where_ + "/" + others_.front() + ".";
   }
-  if (damaged_ > 0) return std::to_string(damaged_) + " damaged messages from " + where_ + " were left out.";
+  if (damaged_ > 0 && now_s - damaged_s_ < kStatusShown_s)
+    return std::to_string(damaged_) + " damaged messages from " + where_ + " were left out.";
   return "";
 }
 

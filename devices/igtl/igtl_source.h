@@ -40,7 +40,8 @@ class ClientSource : public RawSource {
 public:
   static constexpr double kConnect_s = 3.0;      ///< a host that has not answered by then is tried again later
   static constexpr double kNameMissing_s = 2.0;  ///< users are informed if the named transform is missing for this long
-  static constexpr double kStatusShown_s = 5.0;  ///< a STATUS error is shown this long unless revoked
+  static constexpr double kStatusShown_s =
+      5.0;  ///< so long are a STATUS error, unless revoked, and damaged messages shown
 
   explicit ClientSource(ClientRequest request);
 
@@ -81,6 +82,7 @@ private:
   std::string status_;               ///< error text of the server's last STATUS
   double status_s_ = 0;              ///< when the last STATUS arrived
   std::uint64_t damaged_ = 0;        ///< number of messages with a wrong CRC
+  double damaged_s_ = 0;             ///< when the last of them arrived
   std::string failure_;              ///< why the last connection failed; cleared when a sample arrives
   SenderClock clock_;
 };

@@ -29,17 +29,16 @@ struct Runner {
 class Runners {
 public:
   Runners(const std::vector<Parameters>& starts, const LocalSearch& search) : runners_(starts.size()) {
-    for (std::size_t i = 0; i < starts.size(); ++i)
-      threads_.emplace_back([this, &search, &runner = runners_[i], start = starts[i]] { run(runner, start, search); });
-  }
-  ~Runners() {
-    {
-      const std::lock_guard lock(mutex_);
-      abandoned_ = true;
+    try {
+      for (std::size_t i = 0; i < starts.size(); ++i)
+        threads_.emplace_back(
+            [this, &search, &runner = runners_[i], start = starts[i]] { run(runner, start, search); });
+    } catch (...) {  // the system has no more threads
+      stop();
+      throw;
     }
-    changed_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
   }
+  ~Runners() { stop(); }
 
   std::vector<Optimum> finish(const EvaluateAll& evaluate) {
     for (;;) {
@@ -78,6 +77,16 @@ public:
   }
 
 private:
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      abandoned_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
   struct Asking {
     Runners& runners;
     Runner& runner;

@@ -93,8 +93,8 @@ public:
   /// @param volume  must outlive the registrar
   SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep, const RegistrationSettings& settings);
 
-  /// Replaces the sweep's images. Probe, depth and the images' size stay: throws std::invalid_argument for another
-  /// size.
+  /// Replaces the sweep's images, whose probe and depth stay. Images of another size are resampled to that of the
+  /// first.
   void set_images(std::span<const SweepImage> images);
   /// Replaces RegistrationSettings::search_mm, search_deg and scattered.
   void set_range(double search_mm, double search_deg, int scattered);
