@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/scan/exam_panel.h"
 #include "app/panels/screen.h"
 #include "sim/core/text.h"
 
