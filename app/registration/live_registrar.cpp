@@ -189,15 +189,16 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
   const std::lock_guard lock(mutex_);
   if (task.epoch != epoch_) return;
   const std::vector<glm::dvec3> targets = target_points(task.sweep);
-  std::erase(found.doubts, task.wide ? "" : kNotSearched);
   if (task.wide) {
     has_wide_ = found.converged();
-  } else if (!has_wide_) {
-    found.doubts.emplace_back(kNotSearched);
-  } else if (target_error_mm(targets, found.ct_from_sweep, confirmed_) > kSamePlace_mm) {
-    found.doubts.emplace_back("it has left the place that the wide search found");
   } else {
-    std::erase(found.doubts, kTooClose);  // the wide search has told the place from others
+    std::erase(found.doubts, kNotSearched);
+    if (!has_wide_)
+      found.doubts.emplace_back(kNotSearched);
+    else if (target_error_mm(targets, found.ct_from_sweep, confirmed_) > kSamePlace_mm)
+      found.doubts.emplace_back("it has left the place that the wide search found");
+    else
+      std::erase(found.doubts, kTooClose);  // the wide search has told the place from others
   }
   if (task.wide && found.converged()) confirmed_ = found.ct_from_sweep;
   is_settled_ |= task.wide || task.settles;

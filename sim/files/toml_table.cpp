@@ -139,7 +139,7 @@ struct TomlContents {
   std::map<const toml::table*, TomlNode> nodes;  ///< of the tables that were read
   std::function<TomlDocument::Evaluation(const std::string&)> evaluate;
   toml::table no_table;
-  bool is_unreadable = false;  ///< what a reader misses in it then is no mistake of its own
+  bool is_unreadable = false;  ///< it is not TOML, which is the only mistake: nothing is known of its keys
 
   TomlNode& node_of(const toml::table& table) { return nodes.try_emplace(&table, *this, table).first->second; }
   void add(Mistake mistake) {

@@ -35,7 +35,7 @@ SettingValue setting_value(const py::handle& value) {
   } catch (const py::cast_error&) {
   } catch (const py::error_already_set&) {
   }
-  throw InputError("settings", "", std::string(py::str(value)) + " is no value of a setting",
+  throw InputError("settings", "", std::string(py::str(value)) + " cannot be the value of a setting",
                    "give a number, True or False, a text, or a list of numbers");
 }
 

@@ -176,7 +176,7 @@ SweepImage place_image(const Image<std::uint8_t>& grey, const Pose& sweep_from_p
       image_geometry(*input.probe, input.depth_mm.value_or(input.probe->depth_mm), input.width, input.height);
   SweepImage image{sweep_from_probe * placement.probe_from_fan,
                    resampled(clipped(grey, input), placement.pixel_from_plane, geometry)};
-  // What lies beside the fan is no ultrasound.
+  // Beside the fan there is nothing to compare.
   for (int y = 0; y < geometry.height; ++y)
     for (int x = 0; x < geometry.width; ++x)
       if (!line_position(*input.probe, input.depth_mm.value_or(input.probe->depth_mm), geometry.plane_mm(x, y)))

@@ -65,6 +65,22 @@ LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
   return request;
 }
 
+/// An image where the scan has the one of that number.
+SweepImage placed(const test::Scan& scan, std::size_t at, const Image<std::uint8_t>& image) {
+  SweepInput input;
+  input.probe = *find_probe("curvilinear");
+  input.depth_mm = kDepth_mm;
+  return place_image(image, scan.tracker_from_probe[at], scan.probe_from_pixel, input);
+}
+
+RegistrationSettings quick_search() {
+  RegistrationSettings settings;
+  settings.search_mm = settings.search_deg = 12;
+  settings.scattered = 300;
+  settings.slices = 20;
+  return settings;
+}
+
 /// Waits until something is so. The limit only ends a test that hangs.
 void wait_until(const LiveRegistrar& registrar, const std::function<bool(const LiveRegistrar::State&)>& done) {
   for (int i = 0; i < 20000 && !done(registrar.state()); ++i) {
@@ -170,20 +186,17 @@ TEST_CASE("a near start is refined while the probe moves, and a wide search make
 TEST_CASE("the first round with all its images looks around a start that is near a wrong place") {
   const test::Scan& scan = patient().scan;
   const glm::dmat4 start = test::start_off_by(scan, {3, -2, 2}, 4);
-  SweepInput input;
-  input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.wide_slices = 8;
   settings.slices = 20;
   const std::size_t last = scan.images.size() - 1;
   for (const std::size_t first : {26, 34, 42, 62, 64, 68}) {
-    LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, start, {settings, false, false},
+    LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, start, {settings, false, false},
                             [](const TrackedSweep&, const glm::dmat4&) {});
     registrar.refine(false);
     for (std::size_t n = 0; n < 20; ++n) {
       const std::size_t turn = (first + 5 * n) % (2 * last), at = turn <= last ? turn : 2 * last - turn;
-      registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
+      registrar.add(placed(scan, at, scan.images[at]));
     }
     registrar.refine(true);
     wait_until(registrar, [](const LiveRegistrar::State& state) { return state.rounds > 0; });
@@ -195,21 +208,18 @@ TEST_CASE("the first round with all its images looks around a start that is near
 // vain.
 TEST_CASE("where nobody can ask for one, wide searches go on until one has found the place") {
   const test::Scan& scan = patient().scan;
-  SweepInput input;
-  input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepth_mm;
   RegistrationSettings settings;
   settings.search_mm = 12;
   settings.search_deg = 10;
   settings.slices = 20;
   const glm::dmat4 start = test::start_off_by(scan, {4, -2, 2}, 4);
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, start, {settings, false, true},
+  LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, start, {settings, false, true},
                           [](const TrackedSweep&, const glm::dmat4&) {});
   const auto add = [&](std::size_t at, double shown) {
     Image<std::uint8_t> image = scan.images[at];
     const auto first_dark = std::ptrdiff_t(shown * image.height) * image.width;
     std::fill(image.pixels.begin() + first_dark, image.pixels.end(), std::uint8_t(0));
-    registrar.add(place_image(image, scan.tracker_from_probe[at], scan.probe_from_pixel, input));
+    registrar.add(placed(scan, at, image));
   };
   registrar.refine(false);
   const auto enough = std::size_t(settings.slices);
@@ -247,21 +257,12 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
 
 TEST_CASE("a wide search that is asked for begins when the images can tell one place from another") {
   const test::Scan& scan = patient().scan;
-  SweepInput input;
-  input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepth_mm;
-  RegistrationSettings settings;
-  settings.search_mm = settings.search_deg = 12;
-  settings.scattered = 300;
-  settings.slices = 20;
   std::atomic<bool> leaves_out{true};
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, scan.ct_from_tracker, {settings, false, false},
-                          [&](TrackedSweep& sweep, const glm::dmat4&) {
+  LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, scan.ct_from_tracker,
+                          {quick_search(), false, false}, [&](TrackedSweep& sweep, const glm::dmat4&) {
                             if (leaves_out) std::ranges::fill(sweep.images, SweepImage(sweep.images.front()));
                           });
-  const auto add = [&](std::size_t at) {
-    registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
-  };
+  const auto add = [&](std::size_t at) { registrar.add(placed(scan, at, scan.images[at])); };
   registrar.refine(false);
   for (std::size_t n = 0; n < 20; ++n) add(n);
   registrar.search_widely();
@@ -284,21 +285,12 @@ TEST_CASE("a wide search that is asked for begins when the images can tell one p
 
 TEST_CASE("a wide search that the images do not suffice for waits for other images, and is not forgotten") {
   const test::Scan& scan = patient().scan;
-  SweepInput input;
-  input.probe = *find_probe("curvilinear");
-  input.depth_mm = kDepth_mm;
-  RegistrationSettings settings;
-  settings.search_mm = settings.search_deg = 12;
-  settings.scattered = 300;
-  settings.slices = 20;
   std::atomic<int> asked{0};
-  LiveRegistrar registrar(patient().volume, *input.probe, kDepth_mm, scan.ct_from_tracker, {settings, false, false},
-                          [&](const TrackedSweep&, const glm::dmat4&) {
+  LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, scan.ct_from_tracker,
+                          {quick_search(), false, false}, [&](const TrackedSweep&, const glm::dmat4&) {
                             if (++asked < 3) throw InputError("images", "", "they show nothing", "take others");
                           });
-  const auto add = [&](std::size_t at) {
-    registrar.add(place_image(scan.images[at], scan.tracker_from_probe[at], scan.probe_from_pixel, input));
-  };
+  const auto add = [&](std::size_t at) { registrar.add(placed(scan, at, scan.images[at])); };
   registrar.refine(false);
   for (std::size_t n = 0; n < scan.images.size() - 2; ++n) add(n);
   registrar.search_widely();

@@ -159,7 +159,7 @@ class Pictures(unittest.TestCase):
         self.simulator.set(samples=np.int64(128), gain_db=np.float32(3))
         self.assertEqual(self.simulator.settings["samples"], 128)
         self.assertEqual(self.simulator.settings["gain_db"], 3)
-        with self.assertRaisesRegex(insonate.InputError, "None is no value of a setting"):
+        with self.assertRaisesRegex(insonate.InputError, "None cannot be the value of a setting"):
             self.simulator.set(gain_db=None)
         self.simulator.set(samples=before, gain_db=0)
 
