@@ -28,7 +28,7 @@ Defines with(const WorkDivision& division, Defines defines = {}) {
 Defines traversal(const Settings& settings, double dr_mm, bool group_per_line, bool is_stored) {
   const double samples_per_length = settings.reflection_length_mm / dr_mm;
   const auto is = [&](double whole) { return std::abs(samples_per_length - whole) < 1e-9; };
-  return {{"GROUP_A_LINE", flag(group_per_line)},
+  return {{"GROUP_PER_LINE", flag(group_per_line)},
           {"EDGES_AT", group_per_line ? "kEdgesAnywhere"  // each sample fetches its own ends
                        : is(2)        ? "kEdgesAtSamples"
                        : is(1)        ? "kEdgesAtMiddles"

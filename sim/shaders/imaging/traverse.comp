@@ -8,21 +8,21 @@
 //
 // Reads the volume, the tissue table, the scatterers and the placed lines. Writes I, R and the scatterers' echo,
 // and for reverberation I and R of the slice's middle plane.
-// Dispatch: one invocation per line in rows of work groups of GROUP or, with GROUP_A_LINE, one work group of GROUP per
-// line (shared/rows.glsl). sim/gl/work_division.h gives the reasons for either.
+// Dispatch: one invocation per line in rows of work groups of GROUP or, with GROUP_PER_LINE, one work group of GROUP
+// per line (shared/rows.glsl). sim/gl/work_division.h gives the reasons for either.
 
 layout(local_size_x = GROUP) in;
 
 #include "shared/line_sample.glsl"
 #include "shared/rows.glsl"
-#if GROUP_A_LINE == 1
+#if GROUP_PER_LINE == 1
 #include "shared/traverse_by_group.glsl"
 #else
 #include "shared/traverse_by_invocation.glsl"
 #endif
 
 void main() {
-  int index = GROUP_A_LINE == 1 ? group_in_rows() : invocation_in_rows();
+  int index = GROUP_PER_LINE == 1 ? group_in_rows() : invocation_in_rows();
   if (index >= line_count()) return;  // the same for all invocations of a group that traverses one line
 #if SLICE_PLANES == 1
   traverse_line(0, index);
