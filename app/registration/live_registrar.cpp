@@ -19,7 +19,7 @@ namespace {
 constexpr int kPlaces = 16;                    // per call: 0.6 s of two cores without a graphics card
 constexpr std::size_t kImagesToSearch = 20;    // of a wide search that nobody has asked for, if it takes as many
 constexpr double kSamePlace_mm = 8;            // as register_sweep() counts ends as one
-constexpr double kNear_mm = 6, kNear_deg = 6;  // that the first round with all its images looks around the start
+constexpr double kNear_mm = 6, kNear_deg = 6;  // how far a round looks around the estimate before it is confirmed
 constexpr int kNearScattered = 64;
 constexpr auto kGlance = std::chrono::milliseconds(2);
 constexpr auto kLongestHold = std::chrono::milliseconds(200);
@@ -156,7 +156,7 @@ bool LiveRegistrar::begin_round(Task& task) {
       continue;
     }
     task.wide = std::exchange(wants_wide_, false) || searches;
-    task.settles = !is_settled_ && state_.in_use == std::size_t(settings_.search.slices);
+    task.looks_around = !has_wide_ && state_.in_use == std::size_t(settings_.search.slices);
     task.from = (task.wide || is_settled_) && !searches ? state_.ct_from_sweep : start_;
     task.window = done_window_ = window_.version();
     task.epoch = epoch_;
@@ -201,7 +201,7 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
       std::erase(found.doubts, kTooClose);  // the wide search has told the place from others
   }
   if (task.wide && found.converged()) confirmed_ = found.ct_from_sweep;
-  is_settled_ |= task.wide || task.settles;
+  is_settled_ |= task.wide || task.looks_around;
   state_.ct_from_sweep = found.ct_from_sweep;
   ++state_.rounds;
   state_.last = std::make_shared<const LiveRound>(LiveRound{TrackedSweep(task.sweep), std::move(found)});
@@ -235,7 +235,7 @@ void LiveRegistrar::run() {
         }
         if (task.wide)
           registrar->set_range(wide.search_mm, wide.search_deg, wide.scattered);
-        else if (task.settles)
+        else if (task.looks_around)
           registrar->set_range(kNear_mm, kNear_deg, kNearScattered);
         else
           registrar->set_range(0, 0, 1);

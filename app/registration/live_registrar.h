@@ -38,9 +38,9 @@ struct LiveRegistrarSettings {
 /// takes well-spread images of the newest ones and follows the estimate by local searches. A wide search looks for
 /// other places too; only one that converges makes the estimate count as converged. Until there are as many images as a
 /// round takes, each round begins at the start: what few images find may be a wrong place that no later round leaves.
-/// For the same reason the first round with all its images looks around the start. Without a person who can ask for
-/// a wide search, every round is one, around the start, until one converges; the first begins once two images lie
-/// kMinSpread_mm apart.
+/// For the same reason each round with all its images looks around the estimate, until a wide search has confirmed it.
+/// Without a person who can ask for a wide search, every round is one, around the start, until one converges; the first
+/// begins once two images lie kMinSpread_mm apart.
 ///
 /// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
 /// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
@@ -109,7 +109,7 @@ private:
   struct Task {
     TrackedSweep sweep;
     glm::dmat4 from{1.0};
-    bool wide = false, settles = false;
+    bool wide = false, looks_around = false;
     std::uint64_t window = 0, epoch = 0;
   };
 
