@@ -52,8 +52,7 @@ std::string to_string(const LiveRegistrar::Needs& needs) {
 }
 
 LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                             const LiveRegistrarSettings& settings,
-                             std::function<void(TrackedSweep&, const glm::dmat4&)> prepare)
+                             const LiveRegistrarSettings& settings, Prepare prepare)
     : volume_(volume), start_(start), settings_(settings), prepare_(std::move(prepare)), window_(probe, depth_mm) {
   settings_.search.batch = kPlaces;
   state_.ct_from_sweep = start;
@@ -164,7 +163,7 @@ bool LiveRegistrar::begin_round(Task& task) {
     lock.unlock();
     std::string problem;
     try {
-      prepare_(task.sweep, task.from);
+      task.share_left_out = prepare_(task.sweep, task.from);
     } catch (const InputError& error) {
       problem = error.what();
     }
@@ -185,7 +184,7 @@ bool LiveRegistrar::begin_round(Task& task) {
   return false;
 }
 
-void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
+void LiveRegistrar::end_round(const Task& task, const RegistrationSettings& settings, SweepRegistration found) {
   const std::lock_guard lock(mutex_);
   if (task.epoch != epoch_) return;
   const std::vector<glm::dvec3> targets = target_points(task.sweep);
@@ -204,7 +203,8 @@ void LiveRegistrar::end_round(const Task& task, SweepRegistration found) {
   is_settled_ |= task.wide || task.looks_around;
   state_.ct_from_sweep = found.ct_from_sweep;
   ++state_.rounds;
-  state_.last = std::make_shared<const LiveRound>(LiveRound{TrackedSweep(task.sweep), std::move(found)});
+  state_.last = std::make_shared<const LiveRound>(
+      LiveRound{TrackedSweep(task.sweep), task.share_left_out, settings, std::move(found)});
 }
 
 void LiveRegistrar::run() {
@@ -216,7 +216,6 @@ void LiveRegistrar::run() {
   try {
     std::optional<gl::HeadlessContext> context;
     std::unique_ptr<SweepRegistrar> registrar;
-    const RegistrationSettings wide = settings_.search;
     Task task;
     settings_.search.between_calls = [this, &task] { give_way(task); };
     while (begin_round(task)) {
@@ -233,13 +232,14 @@ void LiveRegistrar::run() {
         } else {
           registrar->set_images(task.sweep.images);
         }
-        if (task.wide)
-          registrar->set_range(wide.search_mm, wide.search_deg, wide.scattered);
-        else if (task.looks_around)
-          registrar->set_range(kNear_mm, kNear_deg, kNearScattered);
-        else
-          registrar->set_range(0, 0, 1);
-        end_round(task, registrar->from(task.from));
+        RegistrationSettings settings = settings_.search;
+        if (!task.wide) {
+          settings.search_mm = task.looks_around ? kNear_mm : 0;
+          settings.search_deg = task.looks_around ? kNear_deg : 0;
+          settings.scattered = task.looks_around ? kNearScattered : 1;
+        }
+        registrar->set_range(settings.search_mm, settings.search_deg, settings.scattered);
+        end_round(task, settings, registrar->from(task.from));
       } catch (const Abandoned&) {
         const std::lock_guard lock(mutex_);
         done_window_ = 0;

@@ -23,9 +23,16 @@ namespace insonate {
 
 /// A finished round of a live registration, as it is saved.
 struct LiveRound {
-  TrackedSweep sweep;  ///< the images that it compared
+  TrackedSweep sweep;             ///< the images that it compared
+  double share_left_out = 0;      ///< of their pixels, by Prepare
+  RegistrationSettings settings;  ///< with the range that it searched
   SweepRegistration found;
 };
+
+/// Readies the images of a round for the estimate (ct_from_sweep), on the registrar's thread. It may leave out pixels
+/// and images, and returns the share of the pixels that it left out. An InputError that it throws is the problem: the
+/// round waits for other images.
+using Prepare = std::function<double(TrackedSweep&, const glm::dmat4&)>;
 
 /// How a live registration searches, and what it gives way to.
 struct LiveRegistrarSettings {
@@ -81,10 +88,8 @@ public:
 
   /// @param volume  must outlive the registrar
   /// @param start   ct_from_sweep
-  /// @param prepare  called on the thread before each round with its images and the estimate; it may leave out pixels
-  ///                and images, and an InputError that it throws is the problem: the round waits for other images
   LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
-                const LiveRegistrarSettings& settings, std::function<void(TrackedSweep&, const glm::dmat4&)> prepare);
+                const LiveRegistrarSettings& settings, Prepare prepare);
   /// Ends the thread within one call of the similarity.
   ~LiveRegistrar();
   LiveRegistrar(const LiveRegistrar&) = delete;
@@ -108,6 +113,7 @@ public:
 private:
   struct Task {
     TrackedSweep sweep;
+    double share_left_out = 0;
     glm::dmat4 from{1.0};
     bool wide = false, looks_around = false;
     std::uint64_t window = 0, epoch = 0;
@@ -116,14 +122,14 @@ private:
   void run();
   Needs needs(bool is_wide, bool is_asked_for) const;
   bool begin_round(Task& task);
-  void end_round(const Task& task, SweepRegistration found);
+  void end_round(const Task& task, const RegistrationSettings& settings, SweepRegistration found);
   void give_way(const Task& task);
   bool is_outdated(const Task& task) const;
 
   const AcousticVolume& volume_;
   const glm::dmat4 start_;
   LiveRegistrarSettings settings_;
-  const std::function<void(TrackedSweep&, const glm::dmat4&)> prepare_;
+  const Prepare prepare_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

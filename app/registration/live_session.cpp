@@ -9,7 +9,6 @@
 #include "sim/core/input_error.h"
 #include "tools/cli/pose_file.h"
 #include "tools/register/result_files.h"
-#include "tools/register/start_transform.h"
 
 namespace insonate {
 namespace {
@@ -103,9 +102,9 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
       Probe probe = *input_.probe;
       probe.lines = input_.width;
       registrar_ = std::make_unique<LiveRegistrar>(
-          volume_, probe, depth_mm(), request_.start,
+          volume_, probe, depth_mm(), request_.start.ct_from_sweep,
           LiveRegistrarSettings{request_.settings, request_.gives_way, request_.searches},
-          [this](TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) { keep_what_compares(sweep, ct_from_sweep); });
+          [this](TrackedSweep& sweep, const glm::dmat4& estimate) { return keep_what_compares(sweep, estimate); });
       registrar_->refine(request_.refines);
     }
     registrar_->add(place_image(image.grey, image.sweep_from_probe, probe_from_pixel, input_));
@@ -117,19 +116,21 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
 }
 
 // Called on the registrar's thread.
-void LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const {
+double LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const {
   constexpr double kMaxLeftOut = 0.5;
   check_shows_fan(input_.file, sweep);
   check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
-  if (leave_out_ends(sweep, subject_.ct, ct_from_sweep) > kMaxLeftOut)
+  const double share = leave_out_ends(sweep, subject_.ct, ct_from_sweep);
+  if (share > kMaxLeftOut)
     throw InputError(input_.file, "", "most of what the images show lies where the CT ends",
                      "move the probe away from the CT's ends");
+  return share;
 }
 
 LiveRegistrar::State LiveSession::state() const {
   if (registrar_) return registrar_->state();
   LiveRegistrar::State state;
-  state.ct_from_sweep = request_.start;
+  state.ct_from_sweep = request_.start.ct_from_sweep;
   return state;
 }
 
@@ -174,10 +175,12 @@ std::filesystem::path LiveSession::save(const std::filesystem::path& to, const L
   read.fan = fan_;
   read.frames = std::size_t(stream_.received());
   read.left_out = std::size_t(stream_.unplaced());
-  write_registration(name,
-                     RegistrationReport{std::string(request_.subject), std::string(request_.tracker), read,
-                                        request_.settings, round.found, std::vector<ComparisonPictures>()},
-                     subject_.ct);
+  read.share_at_ends = round.share_left_out;
+  RegistrationReport report{
+      std::string(request_.subject),    std::string(request_.tracker), read, round.settings, round.found,
+      std::vector<ComparisonPictures>()};
+  report.landmark_error_mm = request_.start.landmark_error_mm;
+  write_registration(name, std::move(report), subject_.ct);
   return name;
 }
 

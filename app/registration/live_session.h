@@ -16,15 +16,16 @@
 #include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/case.h"
 #include "tools/register/read_sweep.h"
+#include "tools/register/start_transform.h"
 
 namespace insonate {
 
 /// What a live registration is begun with.
 struct LiveRequest {
-  std::string tracker;    ///< URI of an OpenIGTLink server
-  std::string subject;    ///< as the user named the CT or case; empty: the built-in patient
-  SweepInput input;       ///< `file` is the tracker's URI; with a matrix, TRANSFORM messages place the images
-  glm::dmat4 start{1.0};  ///< ct_from_sweep
+  std::string tracker;  ///< URI of an OpenIGTLink server
+  std::string subject;  ///< as the user named the CT or case; empty: the built-in patient
+  SweepInput input;     ///< `file` is the tracker's URI; with a matrix, TRANSFORM messages place the images
+  StartTransform start;
   RegistrationSettings settings;
   bool refines = true;    ///< at once, when there are images enough
   bool gives_way = true;  ///< the registration, to the pictures; false where there are none
@@ -85,7 +86,7 @@ public:
 private:
   void look_for_fan(const igtl::TrackedImage& image);
   void show(igtl::TrackedImage image, double now_s);
-  void keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const;
+  double keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const;
 
   LiveRequest request_;
   SweepInput input_;  // with the probe, once it is known

@@ -14,7 +14,7 @@ LiveRequest RegistrationOptions::request() const {
   request.input = sweep.input();
   request.input.file = tracker;
   request.input.slices = settings.slices;
-  request.start = sweep.start().ct_from_sweep;
+  request.start = sweep.start();
   request.settings = settings;
   request.refines = refines;
   request.gives_way = !headless;

@@ -54,7 +54,7 @@ LiveRequest request(const test::SweepPlayer& player, const glm::dmat4& start) {
   request.input.probe = *find_probe("curvilinear");
   request.input.depth_mm = kDepth_mm;
   request.input.probe_from_pixel = patient().scan.probe_from_pixel;
-  request.start = start;
+  request.start.ct_from_sweep = start;
   request.gives_way = false;
   request.settings.search_mm = 12;
   request.settings.search_deg = 12;
@@ -133,7 +133,9 @@ TEST_CASE("a near start is refined while the probe moves, and a wide search make
   const glm::dmat4 start = test::start_off_by(scan, {3, -2, 2}, 4);
   REQUIRE(test::error_of(scan, start) > 4);
   const test::SweepPlayer player(scan);
-  Live live(request(player, start));
+  LiveRequest begun = request(player, start);
+  begun.start.landmark_error_mm = 1.5;
+  Live live(begun);
   CHECK(live.comes_near());
   const auto local = live.session.state().last;
   REQUIRE(local);
@@ -164,7 +166,11 @@ TEST_CASE("a near start is refined while the probe moves, and a wide search make
     for (const char* file : {"registration.json", "ct_from_sweep.tfm", "sweep_from_ct.tfm", "evaluations.csv",
                              "index.html", "scene.mrml", "ct.nrrd", "sweep.nrrd"})
       CHECK(std::filesystem::exists(folder.path / "out-2" / file));
-    CHECK_THAT(read_file(folder.path / "out" / "registration.json"), Contains(player.uri()));
+    const std::string json = read_file(folder.path / "out" / "registration.json");
+    for (const std::string& part :
+         {player.uri(), std::string(R"("landmark_error_mm": 1.5)"), std::string(R"("share_left_out_at_ct_ends": 0.0)"),
+          std::string(R"("search_mm": 0.0)"), std::string(R"("search_deg": 0.0)")})  // of a round after a wide search
+      CHECK_THAT(json, Contains(part));
   }
   SECTION("back to the start means that it all begins again") {
     live.session.refine(false);
@@ -192,7 +198,7 @@ TEST_CASE("the first round with all its images looks around a start that is near
   const std::size_t last = scan.images.size() - 1;
   for (const std::size_t first : {26, 34, 42, 62, 64, 68}) {
     LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, start, {settings, false, false},
-                            [](const TrackedSweep&, const glm::dmat4&) {});
+                            [](const TrackedSweep&, const glm::dmat4&) { return 0.0; });
     registrar.refine(false);
     for (std::size_t n = 0; n < 20; ++n) {
       const std::size_t turn = (first + 5 * n) % (2 * last), at = turn <= last ? turn : 2 * last - turn;
@@ -208,7 +214,7 @@ TEST_CASE("the first round with all its images looks around a start that is near
 TEST_CASE("every round looks around until a wide search has found the place") {
   const test::Scan& scan = patient().scan;
   LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, scan.ct_from_tracker,
-                          {quick_search(), false, false}, [](const TrackedSweep&, const glm::dmat4&) {});
+                          {quick_search(), false, false}, [](const TrackedSweep&, const glm::dmat4&) { return 0.0; });
   registrar.refine(false);
   std::size_t next = 0;
   const auto scattered_in_next_round = [&] {
@@ -250,7 +256,7 @@ TEST_CASE("where nobody can ask for one, wide searches go on until one has found
   settings.slices = 20;
   const glm::dmat4 start = test::start_off_by(scan, {4, -2, 2}, 4);
   LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, start, {settings, false, true},
-                          [](const TrackedSweep&, const glm::dmat4&) {});
+                          [](const TrackedSweep&, const glm::dmat4&) { return 0.0; });
   const auto add = [&](std::size_t at, double shown) {
     Image<std::uint8_t> image = scan.images[at];
     const auto first_dark = std::ptrdiff_t(shown * image.height) * image.width;
@@ -297,6 +303,7 @@ TEST_CASE("a wide search that is asked for begins when the images can tell one p
   LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, scan.ct_from_tracker,
                           {quick_search(), false, false}, [&](TrackedSweep& sweep, const glm::dmat4&) {
                             if (leaves_out) std::ranges::fill(sweep.images, SweepImage(sweep.images.front()));
+                            return 0.0;
                           });
   const auto add = [&](std::size_t at) { registrar.add(placed(scan, at, scan.images[at])); };
   registrar.refine(false);
@@ -325,6 +332,7 @@ TEST_CASE("a wide search that the images do not suffice for waits for other imag
   LiveRegistrar registrar(patient().volume, *find_probe("curvilinear"), kDepth_mm, scan.ct_from_tracker,
                           {quick_search(), false, false}, [&](const TrackedSweep&, const glm::dmat4&) {
                             if (++asked < 3) throw InputError("images", "", "they show nothing", "take others");
+                            return 0.0;
                           });
   const auto add = [&](std::size_t at) { registrar.add(placed(scan, at, scan.images[at])); };
   registrar.refine(false);
@@ -417,6 +425,12 @@ TEST_CASE("what lies where the CT cuts the body is not compared while the probe 
     }
     CHECK(known > 0);
     CHECK(lowest_mm == Approx(-13 + 96.0 / 12).margin(1));
+    CHECK(last->share_left_out > 0);
+    CHECK(last->share_left_out < 1);
+    const TemporaryFolder folder;
+    live.session.save(folder.path / "out", *last);
+    CHECK_THAT(read_file(folder.path / "out" / "registration.json"),
+               Contains("\"share_left_out_at_ct_ends\": 0.") && !Contains("\"share_left_out_at_ct_ends\": 0.0,"));
   }
   SECTION("no round begins with images that show little else") {
     const Case subject = tissue_from(-2);
