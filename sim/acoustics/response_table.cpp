@@ -50,7 +50,7 @@ ResponseTable::Slice ResponseTable::slice(const Transducer& transducer, const Be
       const EchoLine echo = point_echo(beam, pulse, {a * slice.across_step, distance_mm, e * slice.elevation_step});
       const double quarters = (a > 0 ? 2.0 : 1.0) * (e > 0 ? 2.0 : 1.0);
       for (int k = 0; k < along_; ++k) {
-        const double behind_mm = (k - along_ / 2) * along_step_;
+        const double behind_mm = (k - (along_ - 1) / 2.0) * along_step_;
         const double place = ((distance_mm + behind_mm) * 2 / echo.speed_mm_us - echo.first_us) / echo.step_us;
         std::complex<double> value = 0;
         if (place >= 0 && place < double(echo.samples.size() - 1)) {
@@ -93,7 +93,7 @@ std::complex<double> ResponseTable::at(std::size_t depth, double across_mm, doub
                                        double behind_mm) const {
   const Slice& slice = slices_[depth];
   const double a = std::abs(across_mm) / slice.across_step, e = std::abs(elevation_mm) / slice.elevation_step,
-               k = behind_mm / along_step_ + along_ / 2;
+               k = behind_mm / along_step_ + (along_ - 1) / 2.0;
   if (a >= slice.across - 1 || e >= slice.elevation - 1 || k < 0 || k >= along_ - 1) return 0;
   const int a0 = int(a), e0 = int(e), k0 = int(k);
   const float fa = float(a - a0), fe = float(e - e0), fk = float(k - k0);

@@ -114,8 +114,8 @@ void write_scene(const std::filesystem::path& folder, const Transducer& transduc
     write_file(into / "transducer.csv", transducer_csv(transducer, beamforming));
     write_file(into / "elements.csv", elements_csv(transducer));
     write_file(into / "excitation.csv", samples_csv("excitation", 0, per_us, pulse.excitation(per_us)));
-    write_file(into / "element_response.csv",
-               samples_csv("response", -double(element.size() / 2) / per_us, per_us, element));
+    const std::size_t middle = element.size() / 2;
+    write_file(into / "element_response.csv", samples_csv("response", -double(middle) / per_us, per_us, element));
     write_file(into / "central_line.csv", samples_csv("rf", line.first_us, per_us, rf));
   });
 }

@@ -41,7 +41,7 @@ bool software_is_asked_for() {
   const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
   if (!value) return false;
   const std::string_view text(value);
-  return text != "" && text != "0" && text != "n" && text != "no" && text != "f" && text != "false";
+  return !text.empty() && text != "0" && text != "n" && text != "no" && text != "f" && text != "false";
 }
 
 EglDisplay the_one_chosen(const std::string& chosen, const std::vector<EGLDeviceEXT>& all) {

@@ -26,9 +26,11 @@ GLenum stage_of(const std::string& name) {
 std::string log_of(GLuint name, void (*get)(GLuint, GLenum, GLint*), void (*text)(GLuint, GLsizei, GLsizei*, char*)) {
   GLint length = 0;
   get(name, GL_INFO_LOG_LENGTH, &length);
-  std::string log(std::size_t(std::max(length, 1)), '\0');
-  text(name, length, nullptr, log.data());
-  return log.c_str();  // without the terminating zero that the length counts
+  std::string log(std::size_t(length), '\0');
+  GLsizei written = 0;  // without the terminating zero that the length counts
+  text(name, length, &written, log.data());
+  log.resize(std::size_t(written));
+  return log;
 }
 
 struct ShaderKind {

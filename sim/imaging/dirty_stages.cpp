@@ -101,9 +101,8 @@ DirtyStages dirty_stages(const Settings& before, const Settings& now) {
     dirty.first = Stage::scan_convert;
   else if (differ(&S::gain_db, &S::tgc_db, &S::reference_level, &S::fixed_level))
     dirty.first = Stage::fuse;
-  else if (differ(&S::dynamic_range_db, &S::grey_map))
-    dirty.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
-  else if (is_filtered(to) != is_filtered(from))  // what the filter reads is kept for it alone
+  else if (differ(&S::dynamic_range_db, &S::grey_map) ||
+           is_filtered(to) != is_filtered(from))  // what the filter reads is kept for it alone
     dirty.first = to.reference_level == ReferenceLevel::fixed ? Stage::fuse : Stage::compress;
   else if (differ(&S::edge_enhancement, &S::speckle_reduction))
     dirty.first = Stage::enhance;
