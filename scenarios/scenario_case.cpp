@@ -73,8 +73,8 @@ std::vector<Mistake> problems_with_case(const Scenario& scenario, const Case& su
 }
 
 void check_against_case(const Scenario& scenario, const Case& subject) {
-  std::vector<Mistake> problems = problems_with_case(scenario, subject);
-  if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
+  const std::vector<Mistake> problems = problems_with_case(scenario, subject);
+  if (!problems.empty()) throw ScenarioError(scenario.file.string(), problems);
 }
 
 std::vector<Mistake> problems_with_phantom(const Scenario& scenario, const std::filesystem::path& assets) {
@@ -100,8 +100,8 @@ std::vector<Mistake> problems_before_case(const Scenario& scenario, const std::f
 
 Case load_case(const Scenario& scenario, const std::filesystem::path& assets, const std::filesystem::path& cache,
                const Progress& progress) {
-  std::vector<Mistake> problems = problems_before_case(scenario, assets);
-  if (!problems.empty()) throw ScenarioError(scenario.file.string(), std::move(problems));
+  const std::vector<Mistake> problems = problems_before_case(scenario, assets);
+  if (!problems.empty()) throw ScenarioError(scenario.file.string(), problems);
   if (scenario.case_name != "abdomen") return read_case(folder_of_case(scenario));
   return cached_phantom(phantom_in(assets), scenario.phantom_options, cache, progress);
 }

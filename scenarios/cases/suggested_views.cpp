@@ -124,7 +124,7 @@ public:
     view.targets = chosen->targets;
     view.patient_from_probe = window->patient_from_probe;
     view.landmarks = landmarks_in(subject_, probe_, view);
-    ViewMeter(subject_, view, tissues_);  // throws if a scenario could not use the view
+    const ViewMeter usable(subject_, view, tissues_);  // throws if a scenario could not use the view
     made_.views.push_back(std::move(view));
     made_.notes.push_back("View '" + chosen->name + "' shows " + shows + ".");
   }

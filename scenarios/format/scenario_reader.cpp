@@ -309,7 +309,7 @@ ReadScenario parse_every_variant(std::string_view text, const std::filesystem::p
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& name, std::uint32_t seed) {
   // All variants are read, so that the one that a seed selects has been checked.
   ReadScenario read = parse_every_variant(text, name);
-  if (!read.problems.empty()) throw ScenarioError(name.string(), std::move(read.problems));
+  if (!read.problems.empty()) throw ScenarioError(name.string(), read.problems);
   Scenario scenario = std::move(read.variants[selected_variant(seed, read.variants.size())]);
   scenario.seed = seed;
   return scenario;

@@ -41,6 +41,10 @@ target_link_libraries(insonate_precompiled PRIVATE insonate_options)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
   # With a precompiled header, GCC 12 and 14 report false overflows within std::string's own functions.
   target_compile_options(insonate_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+  # GCC 14 takes the value of an empty std::optional as read where it is replaced.
+  if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+    target_compile_options(insonate_options INTERFACE -Wno-maybe-uninitialized)
+  endif()
 endif()
 target_precompile_headers(insonate_precompiled PRIVATE "${CMAKE_SOURCE_DIR}/tools/cmake/precompiled.h")
 

@@ -205,7 +205,7 @@ void DatasetFolder::complete() const {
                count = patient.at("shards").get<std::uint32_t>();
     for (std::uint32_t shard = first; shard < first + count; ++shard) {
       const ShardSummary summary = read_shard_summary(shard_file(shard));
-      if (summary.study_digest != json.at("study").at("digest"))
+      if (summary.study_digest != json.at("study").at("digest").get<std::string>())
         throw InputError(shard_file(shard).string(), "", "it is a shard of another study",
                          "remove it, and make the shard again");
       if (shard > first && patient["digest"] != summary.case_digest)
@@ -279,7 +279,7 @@ std::vector<std::string> DatasetFolder::damage() const {
     std::string problem = damage_of_shard(file);
     if (problem.empty()) {
       const ShardSummary summary = read_shard_summary(file);
-      if (summary.study_digest != json.at("study").at("digest"))
+      if (summary.study_digest != json.at("study").at("digest").get<std::string>())
         problem = "it is a shard of another study";
       else if (shard < listed.size() && listed[shard].value("digest", "") != summary.digest)
         problem = "it is not the shard that the manifest lists";

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scenarios/scenario_check.h"
@@ -85,7 +84,7 @@ int check(const CheckRequest& given) {
       problems.insert(problems.end(), more.begin(), more.end());
     }
   }
-  if (!problems.empty()) throw ScenarioError(given.scenario.string(), std::move(problems));
+  if (!problems.empty()) throw ScenarioError(given.scenario.string(), problems);
   if (!right_so_far) return 2;
   const Scenario& exam = text.read.variants.front();
   std::printf("%s: \"%s\", %zu steps: no problems found\n", given.scenario.string().c_str(), exam.title.c_str(),

@@ -51,6 +51,9 @@ struct Knob {
 std::vector<Knob> knobs_of(const Theme& theme, const Machine& machine) {
   const Probe& probe = machine.transducer();
   const Machine usual;
+  // One angle, and pairs of others beside it.
+  constexpr int kMaxPairs = Machine::kMaxSteeringAngles / 2;
+  const int pairs = machine.steering_angles / 2, usual_pairs = usual.steering_angles / 2;
   const auto percent = [](double share) { return share > 0 ? formatted("%.0f %%", 100 * share) : std::string("off"); };
   return {
       {"depth", ActionKind::depth, "Depth", depth_text(theme.look(), machine.depth_mm), machine.depth_mm,
@@ -61,8 +64,7 @@ std::vector<Knob> knobs_of(const Theme& theme, const Machine& machine) {
        "Makes all echoes brighter or darker. A double click takes it back.  (+ and \u2212)"},
       {"compounding", ActionKind::compounding, "Compound",
        machine.steering_angles > 1 ? formatted("%d angles", machine.steering_angles) : std::string("off"),
-       double(machine.steering_angles / 2), 0, double(Machine::kMaxSteeringAngles / 2), 1,
-       double(usual.steering_angles / 2),
+       double(pairs), 0, double(kMaxPairs), 1, double(usual_pairs),
        "Averages pictures from several directions: less speckle, softer shadows, and outlines that are whole.", 1, 2},
       {"edges", ActionKind::edge_enhancement, "Edges", formatted("%.2g", machine.edge_enhancement),
        machine.edge_enhancement, 0, Machine::kMaxEdgeEnhancement, 0.25, usual.edge_enhancement,
@@ -87,8 +89,9 @@ void draw_knobs(const Theme& theme, const Rect& where, Session& session) {
   const std::vector<Knob> knobs = knobs_of(theme, session.machine());
   for (std::size_t i = 0; i < knobs.size(); ++i) {
     const Knob& knob = knobs[i];
-    const Rect place{where.x + float(int(i) % kColumns) * (width + gap), where.y + float(int(i) / kColumns) * height,
-                     width, height - theme.px(4)};
+    const int row = int(i) / kColumns, column = int(i) % kColumns;
+    const Rect place{where.x + float(column) * (width + gap), where.y + float(row) * height, width,
+                     height - theme.px(4)};
     const std::string why_not = session.why_not(knob.kind);
     double value = knob.value;
     if (slider(theme, knob.id, place, knob.name, knob.text, value, knob.least, knob.most, knob.step, knob.normal,

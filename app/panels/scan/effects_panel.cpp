@@ -81,13 +81,13 @@ bool draw_effects_panel(const Theme& theme, const Rect& panel, Session& session,
   std::vector<const Effect*> switches, numbers;
   for (const Effect& effect : effects()) (effect.is_switch() ? switches : numbers).push_back(&effect);
 
-  constexpr std::size_t kColumns = 3;
-  const float width = (rest.w - gap * float(kColumns - 1)) / float(kColumns);
+  constexpr std::size_t kPerRow = 3;
+  const float width = (rest.w - gap * float(kPerRow - 1)) / float(kPerRow);
   const float row_high = std::min(high, (rest.h - theme.px(104)) / 4 - theme.px(4));
-  for (std::size_t first = 0; first < switches.size(); first += kColumns) {
+  for (std::size_t first = 0; first < switches.size(); first += kPerRow) {
     Rect row = rest.take_top(row_high);
     rest.take_top(theme.px(4));
-    for (std::size_t i = first; i < std::min(first + kColumns, switches.size()); ++i) {
+    for (std::size_t i = first; i < std::min(first + kPerRow, switches.size()); ++i) {
       const Effect& effect = *switches[i];
       const std::string id = "effect_" + std::string(effect.name);
       const bool on = effect.value(now) != 0;
@@ -102,7 +102,8 @@ bool draw_effects_panel(const Theme& theme, const Rect& panel, Session& session,
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const Effect& effect = *numbers[i];
     const std::string id = "effect_" + std::string(effect.name);
-    const Rect place{rest.x + float(i % 2) * (half + theme.px(18)), rest.y + float(i / 2) * (slider_high + theme.px(2)),
+    const std::size_t row = i / 2, column = i % 2;
+    const Rect place{rest.x + float(column) * (half + theme.px(18)), rest.y + float(row) * (slider_high + theme.px(2)),
                      half, slider_high};
     places[id] = place;
     double value = effect.value(now);

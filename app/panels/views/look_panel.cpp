@@ -149,8 +149,8 @@ void LookPanel::draw_colours(const Theme& theme, const Rect& where, PatientLook&
   const float gap = theme.px(4), wide = (where.w - gap * float(per_row - 1)) / float(per_row),
               high = (where.h - gap) / 2;
   for (std::size_t i = 0; i < kColours.size(); ++i) {
-    const Rect swatch{where.x + float(i % per_row) * (wide + gap), where.y + float(i / per_row) * (high + gap), wide,
-                      high};
+    const std::size_t row = i / per_row, column = i % per_row;
+    const Rect swatch{where.x + float(column) * (wide + gap), where.y + float(row) * (high + gap), wide, high};
     const std::string id = "look_colour" + std::to_string(i);
     places[id] = swatch;
     ImGui::SetCursorScreenPos(swatch.min());

@@ -161,13 +161,14 @@ void traverse(const DensityVoxels& ct, const ScanLines& lines, const WeinSetting
 }
 
 void convert(const ProcessorFan& fan, const float* grey, std::size_t from, std::size_t to, std::uint8_t* picture) {
+  constexpr float kToNearest = 0.5f;  // grey is never negative, so that truncation rounds
   for (std::size_t i = from; i < to; ++i) {
     const ProcessorPixel& pixel = fan.pixels[i];
     const float* here = grey + std::size_t(pixel.line) * std::size_t(fan.lines.samples) + pixel.sample;
     const float* next = here + std::size_t(pixel.next_line) * std::size_t(fan.lines.samples);
     const float on_line = here[0] + pixel.sample_share * (here[pixel.next_sample] - here[0]);
     const float on_next = next[0] + pixel.sample_share * (next[pixel.next_sample] - next[0]);
-    picture[pixel.pixel] = std::uint8_t(255 * (on_line + pixel.line_share * (on_next - on_line)) + 0.5f);
+    picture[pixel.pixel] = std::uint8_t(255 * (on_line + pixel.line_share * (on_next - on_line)) + kToNearest);
   }
 }
 
