@@ -1,7 +1,7 @@
 #include "app/registration/live_registrar.h"
 
-#include <pthread.h>
-#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,6 +21,7 @@ constexpr std::size_t kImagesToSearch = 20;    // of a wide search that nobody h
 constexpr double kSamePlace_mm = 8;            // as register_sweep() counts ends as one
 constexpr double kNear_mm = 6, kNear_deg = 6;  // how far a round looks around the estimate before it is confirmed
 constexpr int kNearScattered = 64;
+constexpr int kNiceness = 10;  // a tenth of the processor beside a program that takes all of it
 constexpr auto kGlance = std::chrono::milliseconds(2);
 constexpr auto kLongestHold = std::chrono::milliseconds(200);
 
@@ -60,9 +61,13 @@ LiveRegistrar::LiveRegistrar(const AcousticVolume& volume, const Probe& probe, d
 }
 
 LiveRegistrar::~LiveRegistrar() {
+  end();
+  thread_.join();
+}
+
+void LiveRegistrar::end() {
   ending_ = true;
   changed_.notify_all();
-  thread_.join();
 }
 
 void LiveRegistrar::add(SweepImage image) {
@@ -209,10 +214,7 @@ void LiveRegistrar::end_round(const Task& task, const RegistrationSettings& sett
 
 void LiveRegistrar::run() {
   // Of this thread, whose priority those that it makes inherit, and with them those with which llvmpipe computes.
-  if (settings_.gives_way) {
-    const sched_param none{};
-    pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
-  }
+  if (settings_.gives_way) setpriority(PRIO_PROCESS, id_t(gettid()), kNiceness);
   try {
     std::optional<gl::HeadlessContext> context;
     std::unique_ptr<SweepRegistrar> registrar;
@@ -251,6 +253,7 @@ void LiveRegistrar::run() {
     state_.work = Work::failed;
     state_.problem = std::string("The registration has ended: ") + error.what() + ".";
   }
+  has_ended_ = true;
 }
 
 }  // namespace insonate

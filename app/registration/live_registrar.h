@@ -49,8 +49,9 @@ struct LiveRegistrarSettings {
 /// Without a person who can ask for a wide search, every round is one, around the start, until one converges; the first
 /// begins once two images lie kMinSpread_mm apart.
 ///
-/// The thread gives way to a picture, if there is one: it runs at the lowest priority, which its context's own threads
-/// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()).
+/// The thread gives way to a picture, if there is one: it runs at a low priority, which its context's own threads
+/// inherit, it evaluates few places per call, and between calls it waits while the caller draws (hold()). Beside other
+/// programs that take all of the processor, what it computes may last minutes.
 ///
 ///     LiveRegistrar registrar(volume, probe, depth_mm, start, {}, prepare);
 ///     registrar.add(image);                      // as they come
@@ -90,13 +91,16 @@ public:
   /// @param start   ct_from_sweep
   LiveRegistrar(const AcousticVolume& volume, const Probe& probe, double depth_mm, const glm::dmat4& start,
                 const LiveRegistrarSettings& settings, Prepare prepare);
-  /// Ends the thread within one call of the similarity.
+  /// Ends the thread, and waits for that.
   ~LiveRegistrar();
   LiveRegistrar(const LiveRegistrar&) = delete;
   LiveRegistrar& operator=(const LiveRegistrar&) = delete;
 
   // The next functions return at once.
 
+  /// Ends the thread after what it computes now: at most one call of the similarity, or all that it prepares.
+  void end();
+  bool has_ended() const { return has_ended_.load(std::memory_order_relaxed); }
   void add(SweepImage image);
   /// Turns the rounds that follow each other on or off; they are on at first.
   void refine(bool on);
@@ -140,7 +144,7 @@ private:
   bool is_settled_ = false;                    // a round with all the images that it may have, or a wide one, has ended
   glm::dmat4 confirmed_{1.0};                  // where the last wide search that converged ended
   std::uint64_t done_window_ = 0, epoch_ = 0;  // the epoch changes with each reset
-  std::atomic<bool> held_{false}, ending_{false};
+  std::atomic<bool> held_{false}, ending_{false}, has_ended_{false};
   std::thread thread_;
 };
 

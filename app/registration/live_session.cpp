@@ -42,6 +42,7 @@ LiveSession::LiveSession(LiveRequest request, const Case& subject, const Acousti
       next_look_(kFirstLook) {}
 
 void LiveSession::update(double now_s) {
+  std::erase_if(ending_, [](const auto& registrar) { return registrar->has_ended(); });
   arrived_.clear();
   stream_.poll(now_s, arrived_);
   for (igtl::TrackedImage& image : arrived_) {
@@ -88,7 +89,10 @@ void LiveSession::look_for_fan(const igtl::TrackedImage& image) {
     return;
   }
   // A probe that was lifted off when it began shows a part of its fan, or only noise: all that was found is void.
-  registrar_.reset();  // whose thread reads the input
+  if (registrar_) {
+    registrar_->end();  // which may take long beside other programs, and the pictures go on
+    ending_.push_back(std::move(registrar_));
+  }
   input_ = input;
   newest_.reset();
 }
@@ -118,11 +122,11 @@ void LiveSession::show(igtl::TrackedImage image, double now_s) {
 // Called on the registrar's thread.
 double LiveSession::keep_what_compares(TrackedSweep& sweep, const glm::dmat4& ct_from_sweep) const {
   constexpr double kMaxLeftOut = 0.5;
-  check_shows_fan(input_.file, sweep);
+  check_shows_fan(request_.input.file, sweep);
   check_start(request_.subject, subject_.ct, sweep, ct_from_sweep);
   const double share = leave_out_ends(sweep, subject_.ct, ct_from_sweep);
   if (share > kMaxLeftOut)
-    throw InputError(input_.file, "", "most of what the images show lies where the CT ends",
+    throw InputError(request_.input.file, "", "most of what the images show lies where the CT ends",
                      "move the probe away from the CT's ends");
   return share;
 }

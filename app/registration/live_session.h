@@ -97,6 +97,7 @@ private:
   std::size_t next_look_;  // for the fan, at so many images
   std::optional<FoundFan> fan_;
   std::unique_ptr<LiveRegistrar> registrar_;
+  std::vector<std::unique_ptr<LiveRegistrar>> ending_;  // of fans that were not the probe's
   std::optional<Shown> newest_;
   std::vector<igtl::TrackedImage> arrived_;
   int width_ = 0, height_ = 0;          // of the first image

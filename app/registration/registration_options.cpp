@@ -56,7 +56,7 @@ void declare_registration(CLI::App& arguments, RegistrationOptions& options) {
       ->excludes(no_refining);
   mode.add_option("--seconds", options.seconds, "End after this many seconds")
       ->check(CLI::Range(0.0, 86400.0))
-      ->default_str("60 without a window");
+      ->default_str("300 without a window");
   mode.add_option("--screenshot", options.screenshot, "Write the whole screen as a PNG at the end")->type_name("FILE");
   mode.add_option("--state-file", options.state_file,
                   "Write what the registration is doing to this JSON file, and keep it up to date")

@@ -26,12 +26,27 @@ std::vector<fs::path> missing_above(const fs::path& folder) {
   return missing;
 }
 
+[[noreturn]] void refuse(const fs::path& folder, const std::error_code& error) {
+  throw InputError(folder.string(), "", "the folder cannot be written (" + error.message() + ")",
+                   "name a folder that may be written");
+}
+
 }  // namespace
 
 void refuse_taken(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(without_slash(folder), error)))
     throw InputError(folder.string(), "", "something of this name is there", "name a folder that is new");
+}
+
+void refuse_unwritable(const fs::path& folder) {
+  const fs::path target = without_slash(folder), temporary = temporary_beside(target);
+  const std::vector<fs::path> made = missing_above(target);
+  std::error_code error, ignored;
+  fs::create_directories(temporary, error);
+  fs::remove(temporary, ignored);
+  for (const fs::path& above : made) fs::remove(above, ignored);
+  if (error) refuse(folder, error);
 }
 
 void write_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
@@ -58,8 +73,7 @@ void write_folder(const fs::path& folder, const std::function<void(const fs::pat
   }
   if (error) {
     clean_up();
-    throw InputError(folder.string(), "", "the folder cannot be written (" + error.message() + ")",
-                     "name a folder that may be written");
+    refuse(folder, error);
   }
 }
 

@@ -36,6 +36,7 @@ void write_png(const std::filesystem::path& file, const Image<Rgba8>& image) {
 }
 
 Image<std::uint8_t> read_png(const std::filesystem::path& file) {
+  check_is_file(file);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const auto refuse = [&](const std::string& why) {

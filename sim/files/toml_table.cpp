@@ -423,8 +423,13 @@ std::optional<NumberRange> TomlTable::interval(std::string_view key, const Numbe
     const auto least = (*list)[0].value<double>(), most = (*list)[1].value<double>();
     if (least && most && *least >= range.least && *least <= *most && *most <= range.most)
       return NumberRange{*least, *most};
+    if (least && most && *least <= *most && !is_unbounded(range)) {
+      report(key, in_quotes(key) + " goes beyond its limits", "write two numbers" + from_to(range));
+      return std::nullopt;
+    }
   }
-  report(key, in_quotes(key) + " is not a range", "write the least and the most in square brackets," + from_to(range));
+  report(key, in_quotes(key) + " is not a range",
+         "write the least and the most in square brackets" + (is_unbounded(range) ? "" : "," + from_to(range)));
   return std::nullopt;
 }
 

@@ -186,6 +186,12 @@ TEST_CASE("a new folder appears as a whole or not at all, and takes nobody's pla
   CHECK_THROWS_AS(write_folder(failed, fail), InputError);
   CHECK_FALSE(fs::exists(failed.parent_path()));
   CHECK_THROWS_WITH(write_folder(made / "a" / "below", other), Catch::Contains("the folder cannot be written"));
+  CHECK_THROWS_WITH(refuse_unwritable(made / "a" / "below"), Catch::Contains("the folder cannot be written"));
+  refuse_unwritable(failed);
+  CHECK_FALSE(fs::exists(failed.parent_path()));
+  refuse_unwritable(made);
+  CHECK(entries(made) == 1);
+  CHECK(entries(made.parent_path()) == 1);
 }
 
 TEST_CASE("a held file is known under all its names, with the files beside it, until it is let go") {

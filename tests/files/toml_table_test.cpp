@@ -216,6 +216,11 @@ TEST_CASE("a key that is missing, of another kind or out of range is a mistake i
          t.interval("a", {0, 5});
        },
        "1:5 'a' is not a range; write the least and the most in square brackets, from 0 to 5"},
+      {"a = [1, 6]",
+       [](T t) {
+         t.interval("a", {0, 5});
+       },
+       "1:5 'a' goes beyond its limits; write two numbers from 0 to 5"},
       {"", [](T t) { t.table("a").number("b"); }, "1:1 the key 'a' is missing; add it: [a]"},
       {"a = { b = 3 }", [](T t) { t.table("a").table("b").text("c"); },
        "1:11 [a]: 'b' is not a table; write [a.b] above its keys"},

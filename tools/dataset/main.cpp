@@ -74,6 +74,8 @@ int make_one(const std::string& study_file, std::uint32_t index, const std::stri
     json["shard"] = index / study.shard_images;
     json["probe"] = image.shot.probe.name;
     json["depth_mm"] = image.shot.depth_mm;
+    json["mm_per_pixel"] =
+        image_geometry(image.shot.probe, image.shot.depth_mm, image.grey.width, image.grey.height).mm_per_pixel;
     json["pose_source"] = image.shot.pose_source;
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) {
@@ -190,8 +192,8 @@ int main(int argc, char** argv) {
   add_folder(merge_command, "Move the shards to this dataset");
   merge_command->add_option("FROM", others, "Take the shards of these folders")->type_name("FOLDER")->required();
 
-  CLI::App* check_command =
-      program.add_subcommand("check", "Read all shards and report damage; the exit code is 1 if there is any");
+  CLI::App* check_command = program.add_subcommand(
+      "check", "Read all shards and report damage; the exit code is 1 if a shard is damaged or missing");
   add_folder(check_command, "Read this dataset");
 
   return run_program(program, argc, argv, [&] {

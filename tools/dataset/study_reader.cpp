@@ -106,8 +106,10 @@ StudyPoses read_poses_of_study(const TomlTable& table, const std::filesystem::pa
   poses.place = table.place("kind");
   poses.kind = PoseKind(table.choice("kind", {"skin", "view", "log"}));
   poses.weight = table.number("weight", kWeight, 1);
-  poses.cases = table.texts("cases");
-  poses.probes = table.texts("probes");
+  // An empty list would mean the same as none, which is not what it says.
+  const auto names = [&](const char* key) { return table.texts(key, table.has(key) ? 1 : 0); };
+  poses.cases = names("cases");
+  poses.probes = names("probes");
   const NumberRange half_turn{-180, 180}, most_tilt{-80, 80};
   const bool on_skin = poses.kind == PoseKind::skin;
   const NumberRange usual_tilt = on_skin ? NumberRange{-20, 20} : NumberRange{0, 0};
@@ -120,7 +122,7 @@ StudyPoses read_poses_of_study(const TomlTable& table, const std::filesystem::pa
     poses.around_deg = read_range(table, "around_deg", half_turn, half_turn);
     poses.height_percent = read_range(table, "height_percent", {0, 100}, poses.height_percent);
   } else if (poses.kind == PoseKind::view) {
-    poses.views = table.texts("views");
+    poses.views = names("views");
     poses.views_place = table.place("views");
   } else {
     const std::string log = table.text("file");

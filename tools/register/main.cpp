@@ -163,6 +163,7 @@ int main(int argc, char** argv) {
 
   const auto work = [&] {
     refuse_taken(out);
+    refuse_unwritable(out);
     SweepInput input = sweep.input();
     input.file = recording;
     input.transform = transform;

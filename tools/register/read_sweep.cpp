@@ -201,8 +201,13 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
     all.push_back({frame.number, scan.samples[n].patient_from_probe, *probe_from_pixel});
   }
   if (!is_placed)
-    throw InputError(input.file, "", "it does not say how its images lie in the probe's frame: ImageToProbe is missing",
-                     "give that matrix as --image-to-probe FILE");
+    throw InputError(
+        input.file, "",
+        "it does not say how its images lie in the probe's frame: ImageToProbe is missing, or invalid in all "
+        "of them",
+        "give that matrix as --image-to-probe FILE");
+  if (scan.samples.size() < 2)
+    throw InputError(input.file, "", "it has one image alone", "give a sweep of two images or more");
   if (all.size() < 2)
     throw InputError(input.file, "", "fewer than two of its images have a pose whose status is OK",
                      "name the probe's transform with --transform; frames without a status of it count as lost");

@@ -20,8 +20,9 @@ namespace insonate {
 namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
-constexpr double kFarthest_mm = 1e5;  // of a landmark from the origin; a tracker's range is far smaller
-constexpr double kMinOffLine_mm = 5;  // of the landmarks
+constexpr double kFarthest_mm = 1e5;         // of a landmark from the origin; a tracker's range is far smaller
+constexpr double kMinOffLine_mm = 5;         // of the landmarks
+constexpr double kMaxLandmarkError_mm = 30;  // as far as a search looks by default
 constexpr double kBody_hu = -300;
 constexpr double kMinShare = 0.1;  // of what the sweep shows that lies in the CT, and in the body
 
@@ -78,6 +79,11 @@ StartTransform start_from_landmarks(const std::string& file) {
     for (int row = 0; row < 4; ++row) result.ct_from_sweep[column][row] = fit(row, column);
   const Eigen::MatrixXd apart = (fit.topLeftCorner<3, 3>() * in_sweep).colwise() + fit.topRightCorner<3, 1>() - in_ct;
   result.landmark_error_mm = std::sqrt(apart.squaredNorm() / double(pairs));
+  if (*result.landmark_error_mm > kMaxLandmarkError_mm)
+    throw InputError(file, "",
+                     "the landmarks' places do not fit each other: they stay " +
+                         std::to_string(std::lround(*result.landmark_error_mm)) + " mm apart (root mean square)",
+                     "write each pair in one line, in mm, and the CT's points in LPS");
   return result;
 }
 

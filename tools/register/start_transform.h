@@ -18,7 +18,7 @@ struct StartTransform {
 
 /// Returns the rigid map that fits pairs of points best, in the sense of least squares. The file is text with six
 /// numbers per pair: the point in the sweep's frame and the same point in the CT (LPS), mm. Throws InputError if it has
-/// fewer than three pairs, or if the points of either side lie on a line.
+/// fewer than three pairs, if the points of either side lie on a line, or if they do not fit within 30 mm.
 StartTransform start_from_landmarks(const std::string& file);
 
 /// Throws InputError if the CT does not hold the region that the sweep shows, or if the sweep looks away from the body.

@@ -12,7 +12,7 @@
 #include "devices/live/steady_clock.h"
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
-#include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 #include "sim/tissue/tissue.h"
 #include "tools/cli/subject.h"
 #include "tools/register/result_files.h"
@@ -20,7 +20,7 @@
 namespace insonate {
 namespace {
 
-constexpr double kUsual_s = 60;
+constexpr double kUsual_s = 300;
 constexpr auto kStep = std::chrono::milliseconds(10);
 constexpr int kNotConverged = 3;
 
@@ -28,6 +28,7 @@ constexpr int kNotConverged = 3;
 
 int run_registration_headless(const RegistrationOptions& options) {
   const LiveRequest request = options.request();
+  refuse_unwritable(options.out);
   const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
   const Case subject = open_subject(request.subject);
   const AcousticVolume volume = make_acoustic_volume(subject.ct, subject.labels, tissue_by_label(subject), table);

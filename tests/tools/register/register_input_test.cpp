@@ -145,7 +145,14 @@ TEST_CASE("a recording that cannot be registered is refused in a sentence") {
   recorded.refused("it holds no images that can be read; record the ultrasound with the poses.");
   recorded.folder.put("scan.igs.mha",
                       "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n" + frame + "abcd");
-  recorded.refused("it does not say how its images lie in the probe's frame: ImageToProbe is missing");
+  recorded.refused(
+      "it does not say how its images lie in the probe's frame: ImageToProbe is missing, or invalid in all of them");
+  recorded.folder.put("scan.igs.mha",
+                      "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n"
+                      "Seq_Frame0000_ImageToProbeTransform = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n"
+                      "Seq_Frame0000_ImageToProbeTransformStatus = OK\n" +
+                          frame + "abcd");
+  recorded.refused("it has one image alone; give a sweep of two images or more.");
 }
 
 TEST_CASE("a probe is read from a file, and refused with its line") {
@@ -182,7 +189,7 @@ TEST_CASE("a mask leaves pixels out") {
   recorded.input.mask = Image<std::uint8_t>(kWidth + 1, kHeight);
   recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
   CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
-  CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("it cannot be read as a PNG"));
+  CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("there is no such file; check the name."));
   write_png(file, Image<std::uint8_t>(8193, 1));
   CHECK_THROWS_WITH(read_png(file), Contains("mask.png: it has 8193 x 1 pixels; give a PNG with at most 8192 x 8192"));
   const std::string bytes = png_bytes(mask);

@@ -170,5 +170,8 @@ TEST_CASE("landmarks give the start that maps them, and bad ones are refused in 
   refused("1 2 3 4 5 nan", "number 6: 'nan' is not a number");
   refused("1e300 2 3 4 5 6", "number 1: '1e300' is not a number within 100 m");
   refused("0 0 0 0 0 0 1 1 1 1 1 1 2 2 2 2 2 2", "the landmarks lie on a line");
+  // As above with legs of 180 mm in place of 66: twenty times as far apart, 80 mm.
+  refused("0 0 0 0 0 0  60 0 0 180 0 0  0 60 0 0 180 0",
+          "the landmarks' places do not fit each other: they stay 80 mm apart (root mean square); write each pair in");
   refused("0 0 0 0 0 0 50 0 0 1 1 1 0 50 0 2 2 2", "the landmarks lie on a line");
 }
