@@ -11,12 +11,14 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "sim/core/input_error.h"
 #include "tests/core/run_program.h"
+#include "tools/register/comparison_pictures.h"
 #include "tools/register/deformation_files.h"
 #include "tools/register/start_transform.h"
 
@@ -174,4 +176,29 @@ TEST_CASE("landmarks give the start that maps them, and bad ones are refused in 
   refused("0 0 0 0 0 0  60 0 0 180 0 0  0 60 0 0 180 0",
           "the landmarks' places do not fit each other: they stay 80 mm apart (root mean square); write each pair in");
   refused("0 0 0 0 0 0 50 0 0 1 1 1 0 50 0 2 2 2", "the landmarks lie on a line");
+}
+
+TEST_CASE("the pictures of a result are of images that show something, spread among these") {
+  TrackedSweep sweep{Probe(*find_probe("linear")), 40, {}};
+  for (int i = 0; i < 8; ++i) {
+    SweepImage image{Pose{glm::dmat3(1.0), glm::dvec3(0, 0, i)}, Image<float>(40, 30)};
+    const bool in_air = i < 4;  // a bright face and noise in the depth, and nothing between
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x)
+        image.grey.at(x, y) = in_air ? (y < 3 ? 255.0F : y > 20 ? float(60 * (x % 2)) : 0.0F) : float(40 + x + y);
+    sweep.images.push_back(std::move(image));
+  }
+  Volume<std::int16_t> ct;
+  ct.grid.size = glm::ivec3(4);
+  ct.voxels.resize(ct.grid.count());
+  const TemporaryFolder folder;
+  const glm::dmat4 same(1.0);
+  const auto pictures = write_comparison(folder.path / "pictures", sweep, ct, same, same, nullptr, 2);
+  REQUIRE(pictures.size() == 2);
+  CHECK(pictures[0].image == 5);
+  CHECK(pictures[1].image == 7);
+  CHECK(pictures[0].blend_after == "pictures/5-blend-after.png");
+  CHECK(std::filesystem::exists(folder.path / pictures[0].blend_after));
+  // There are more pictures than such images, but not more than images.
+  CHECK(write_comparison(folder.path / "all", sweep, ct, same, same, nullptr, 20).size() == 8);
 }
