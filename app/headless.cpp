@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/panels/screen.h"
+#include "app/recording/run_files.h"
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 #include "scenarios/words.h"
@@ -125,7 +126,9 @@ int run_headless(const Options& options) {
   const Image<Rgba8> last_screen = screen.draw(trainer);
   if (trainer.recorder().running()) {
     trainer.finish_recording();
-    print_file(trainer.recorder().file());
+    const std::filesystem::path recording = trainer.recorder().file();
+    print_file(recording);
+    if (std::filesystem::exists(images_of(recording))) print_file(images_of(recording));
   }
   if (!trainer.raw_file().empty()) print_file(trainer.raw_file());
   if (!options.latency.empty()) {

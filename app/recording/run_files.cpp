@@ -20,10 +20,6 @@ std::filesystem::path with_addition(const std::filesystem::path& file, const std
   return named.replace_filename(name.insert(ending, addition));
 }
 
-std::filesystem::path images_of(const std::filesystem::path& file) {
-  return with_addition(file, "-images");
-}
-
 bool is_unused(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path candidates[] = {file, working_file(file), images_file(file)};
@@ -60,6 +56,10 @@ glm::dmat4 probe_from_pixel(const ImageGeometry& geometry, int width, int height
 }
 
 }  // namespace
+
+std::filesystem::path images_of(const std::filesystem::path& file) {
+  return with_addition(file, "-images");
+}
 
 std::filesystem::path part_of(const std::filesystem::path& file, int part) {
   return part == 1 ? file : with_addition(file, "-" + std::to_string(part));

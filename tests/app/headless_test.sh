@@ -43,6 +43,7 @@ without_log() { grep -v '"log' "$1"; }
 cmp <(without_log "$work/good.json") <(without_log "$work/run.json") || fail "the recorded run has another score"
 "$trainer" --headless --record "$work/seen.igs.mha" --record-images --seconds 1 --out "$work/recorded" >"$work/log" 2>&1 ||
   fail "$(cat "$work/log")"
+grep -q "^wrote $work/seen-images.igs.mha\$" "$work/log" || fail "the pictures' file is not named"
 head -c 1000 "$work/seen-images.igs.mha" | grep -aq '^DimSize = [1-9][0-9]* [1-9][0-9]* [1-9]' || fail "there are no pictures"
 [ -z "$(find "$work" -name '*.recording*')" ] || fail "working files are left"
 
