@@ -32,7 +32,7 @@ int plan(const std::string& study_file, const std::string& path) {
   const std::vector<StudyPatient> patients = patients_of(study);
   check_patients(study, patients);
   DatasetFolder(path).begin(study, patients);
-  std::printf("%u images in %u shards, of %zu patients\n", study.images, study.shards(), patients.size());
+  std::printf("%u images in %u shards; patients: %zu\n", study.images, study.shards(), patients.size());
   for (const StudyPatient& patient : patients)
     std::printf("  shards %u-%u: %s\n", patient.first_shard, patient.first_shard + patient.shards - 1,
                 patient.name.c_str());
@@ -120,8 +120,13 @@ int status(const std::string& path, bool only_missing) {
 int merge(const std::string& path, const std::vector<std::string>& others) {
   const DatasetFolder folder(path);
   folder.shards();  // refuses a folder that is none, before anything is moved
-  for (const std::string& other : others)
-    std::printf("%s: %u shards moved\n", other.c_str(), folder.take_shards_of(DatasetFolder(other)));
+  for (const std::string& other : others) {
+    const DatasetFolder from(other);
+    std::printf("%s: %u shards moved", other.c_str(), folder.take_shards_of(from));
+    if (const std::size_t left = from.shards() - from.missing().size(); left > 0)
+      std::printf(", %zu left there, which %s has already", left, path.c_str());
+    std::printf("\n");
+  }
   if (folder.missing().empty()) folder.complete();
   return 0;
 }

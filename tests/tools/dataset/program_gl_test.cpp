@@ -89,11 +89,13 @@ TEST_CASE("one process, ranks, single shards and merged folders give the same by
   CHECK(files_of(work.path / "jobs") == whole);
 
   work.make("here --shards 0-1");
-  work.make("there --shards 2-5");
+  work.make("there --shards 1-5");
   CHECK(work.run("status here").code == 1);
-  CHECK(work.run("merge here there").code == 0);
+  const ProgramOutcome merged = work.run("merge here there");
+  CHECK(merged.code == 0);
+  CHECK(merged.output.find("there: 4 shards moved, 1 left there, which here has already\n") != std::string::npos);
   CHECK(files_of(work.path / "here") == whole);
-  CHECK(files_of(work.path / "there").size() == 1);  // its manifest: a shard is moved, not copied
+  CHECK(files_of(work.path / "there").size() == 2);  // its manifest, and the shard that both have
 
   // From another disk, shards are copied. /dev/shm is one of its own.
   const fs::path other = fs::path("/dev/shm") / work.path.filename();
