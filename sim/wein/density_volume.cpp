@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/gl/headless_context.h"
 #include "sim/imaging/device_volume.h"
 
 namespace insonate::gl {
@@ -15,40 +14,42 @@ namespace {
 
 constexpr double kStepsPerHu = 8;  // of the stored gradient, as in wein_traverse.comp
 
-// Returns HU at a position between the voxels of a row, which lie `stride` apart; air beyond the row's ends.
-double between(const AcousticVoxel* row, std::ptrdiff_t stride, int count, double at) {
-  const double below = std::floor(at), share = at - below;
-  const auto hu = [&](double i) {
-    return i >= 0 && i < count ? double(row[std::ptrdiff_t(i) * stride].hu) : double(AcousticVoxel{}.hu);
-  };
-  return hu(below) + share * (hu(below + 1) - hu(below));
-}
-
-Texture stored_as(GLenum format, const Grid& grid, const std::vector<std::array<std::int16_t, 4>>& voxels) {
-  const glm::ivec3 size = grid.size + 2 * kAirMargin;
-  Texture texture = Texture::make_3d(format, size.x, size.y, size.z, Filter::linear, Wrap::edge);
-  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {AcousticVoxel{}.hu, 0, 0, 0});
-  return texture;
+// Returns HU at a place that lies so many voxels after voxel i of a row, whose `count` voxels lie `stride` apart; air
+// beyond its ends.
+double hu_at(const AcousticVoxel* voxel, int i, std::ptrdiff_t stride, int count, const VoxelsAfter& place) {
+  const int below = i + place.whole;
+  const double hu = below >= 0 && below < count ? voxel[place.whole * stride].hu : AcousticVoxel{}.hu,
+               next = below >= -1 && below < count - 1 ? voxel[(place.whole + 1) * stride].hu : AcousticVoxel{}.hu;
+  return hu + place.share * (next - hu);
 }
 
 }  // namespace
 
-glm::dvec3 density_change(const AcousticVolume& volume, const glm::ivec3& voxel, double reflection_length_mm) {
-  const Grid& grid = volume.grid;
-  const glm::tvec3<std::ptrdiff_t> stride(1, grid.size.x, std::ptrdiff_t(grid.size.x) * grid.size.y);
-  const AcousticVoxel* here = volume.voxels.data() + grid.offset(voxel);
+VoxelsAfter::VoxelsAfter(double voxels) : whole(int(std::floor(voxels))), share(voxels - whole) {}
+
+DensityChange::DensityChange(const AcousticVolume& volume, double reflection_length_mm)
+    : volume_(volume), stride_(1, volume.grid.size.x, std::ptrdiff_t(volume.grid.size.x) * volume.grid.size.y) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = reflection_length_mm / 2 / volume.grid.spacing[axis];
+    ahead_.emplace_back(half);
+    behind_.emplace_back(-half);
+  }
+}
+
+glm::dvec3 DensityChange::at(const glm::ivec3& voxel) const {
+  const AcousticVoxel* here = volume_.voxels.data() + volume_.grid.offset(voxel);
   glm::dvec3 change;
   for (int axis = 0; axis < 3; ++axis) {
-    const AcousticVoxel* row = here - voxel[axis] * stride[axis];
-    const double half = reflection_length_mm / 2 / grid.spacing[axis];
-    change[axis] = between(row, stride[axis], grid.size[axis], voxel[axis] + half) -
-                   between(row, stride[axis], grid.size[axis], voxel[axis] - half);
+    const int i = voxel[axis], count = volume_.grid.size[axis];
+    change[axis] = hu_at(here, i, stride_[axis], count, ahead_[std::size_t(axis)]) -
+                   hu_at(here, i, stride_[axis], count, behind_[std::size_t(axis)]);
   }
   return change;
 }
 
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm) {
   const Grid& grid = volume.grid;
+  const DensityChange change_of(volume, reflection_length_mm);
   std::vector<std::array<std::int16_t, 4>> voxels(grid.count());
   tbb::parallel_for(0, grid.size.z, [&](int z) {
     for (int y = 0; y < grid.size.y; ++y)
@@ -56,22 +57,16 @@ Texture density_volume(const AcousticVolume& volume, double reflection_length_mm
         const glm::ivec3 i(x, y, z);
         const std::size_t v = grid.offset(i);
         voxels[v][0] = volume.voxels[v].hu;
-        const glm::dvec3 change = density_change(volume, i, reflection_length_mm);
+        const glm::dvec3 change = change_of.at(i);
         for (int axis = 0; axis < 3; ++axis)
           voxels[v][std::size_t(axis) + 1] =
               std::int16_t(std::lround(std::clamp(kStepsPerHu * change[axis], -32767.0, 32767.0)));
       }
   });
-  // A processor uses a voxel of floats as it is, but has to unpack one of integers, which costs a tenth of an image's
-  // time (`insonate-bench batch`, llvmpipe). Floats take twice the memory, which a card would have to move.
-  if (is_software_renderer()) {
-    try {
-      return stored_as(GL_RGBA32F, grid, voxels);
-    } catch (const TextureRefused&) {
-      // The integers may still fit.
-    }
-  }
-  return stored_as(GL_RGBA16_SNORM, grid, voxels);
+  const glm::ivec3 size = grid.size + 2 * kAirMargin;
+  Texture texture = Texture::make_3d(GL_RGBA16_SNORM, size.x, size.y, size.z, Filter::linear, Wrap::edge);
+  texture.write_inside(GL_RGBA, GL_SHORT, voxels.data(), {AcousticVoxel{}.hu, 0, 0, 0});
+  return texture;
 }
 
 }  // namespace insonate::gl

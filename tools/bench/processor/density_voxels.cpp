@@ -13,12 +13,13 @@ DensityVoxels::DensityVoxels(const AcousticVolume& volume, double reflection_len
   row = std::size_t(grid.size.x) + 3;
   layer = row * (std::size_t(grid.size.y) + 3);
   voxels.resize(layer * (std::size_t(grid.size.z) + 3));
+  const gl::DensityChange change_of(volume, reflection_length_mm);
   tbb::parallel_for(0, grid.size.z, [&](int k) {
     for (int j = 0; j < grid.size.y; ++j)
       for (int i = 0; i < grid.size.x; ++i) {
         DensityVoxel& voxel = voxels[std::size_t(k + 1) * layer + std::size_t(j + 1) * row + std::size_t(i + 1)];
         voxel.hu = volume.at({i, j, k}).hu;
-        const glm::dvec3 change = gl::density_change(volume, {i, j, k}, reflection_length_mm);
+        const glm::dvec3 change = change_of.at({i, j, k});
         for (int axis = 0; axis < 3; ++axis) voxel.gradient[axis] = float(change[axis]);
       }
   });
