@@ -164,6 +164,18 @@ std::vector<Optimum> maximise_from(const std::vector<Parameters>& starts, const 
   return Runners(starts, search).finish(evaluate);
 }
 
+bool leads_up(const Optimum& from, const Optimum& to, const EvaluateAll& evaluate) {
+  constexpr double kLevel = 0.98;
+  constexpr int kSteps = 8;
+  if (from.value > kLevel * to.value) return false;
+  std::vector<Parameters> way;
+  for (int step = 1; step < kSteps; ++step) {
+    way.push_back(from.at);
+    for (std::size_t i = 0; i < from.at.size(); ++i) way.back()[i] += (to.at[i] - from.at[i]) * step / kSteps;
+  }
+  return std::ranges::min(evaluate(way)) >= kLevel * from.value;
+}
+
 std::vector<Parameters> scattered_motions(std::size_t first, std::size_t count, double translation_mm,
                                           double rotation_mm) {
   constexpr std::array<std::size_t, 6> kBases{2, 3, 5, 7, 11, 13};

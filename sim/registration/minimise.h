@@ -39,6 +39,11 @@ struct Optimum {
 std::vector<Optimum> maximise_from(const std::vector<Parameters>& starts, const EvaluateAll& evaluate,
                                    const LocalSearch& search);
 
+/// Returns whether two places lie on one hill, the second higher: along the straight way between them, in 8 steps, the
+/// values never fall below 0.98 times the first's. A dip of less is unevenness. Places as high as each other, up to
+/// that share, are a plateau, which leads nowhere.
+bool leads_up(const Optimum& from, const Optimum& to, const EvaluateAll& evaluate);
+
 /// Returns parameters of rigid motions that fill a range: translations in a ball, rotations in another. They are points
 /// of Halton's sequence (J. H. Halton, Numerische Mathematik 2, 1960), so equal calls give equal points. Both are
 /// denser at the middle, where a start that is worth giving is likely to be right: an even point at the share r of a

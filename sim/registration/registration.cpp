@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/registration/coarse_volume.h"
 #include "sim/registration/uncertainty.h"
 
 namespace insonate {
@@ -19,17 +20,26 @@ namespace {
 
 enum Stage { kScatter, kWide, kFine, kAffine, kElsewhere };
 
+// The widest stage. Its voxels are larger, because places that are scattered over a whole CT wait for its memory, and
+// its reflections are longer, so that interfaces are as wide as a pixel.
 constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
+constexpr double kWideVoxel_mm = 2, kWideLength_mm = 4;
+
+// A few of its images sort out most of the scattered places: one in kSift is looked at with all of them, but at least
+// kLeastSifted for each that is followed.
+constexpr int kScatterSlices = 4;
+constexpr std::size_t kSift = 4, kLeastSifted = 4;
+
 constexpr std::size_t kFineStarts = 4;
-constexpr double kWideLength_mm = 4;  // of a reflection, so that interfaces are as wide as a pixel
-constexpr double kBasin_mm = 8;       // ends that are nearer to each other are one, or half the search range if less
+constexpr double kBasin_mm = 8;  // ends that are nearer to each other are one, or half the search range if less
 constexpr double kBasin_deg = 8;
-constexpr double kAmbiguous = 0.9;                         // of the similarity
-constexpr int kClimbs = 3;                                 // most repetitions of the last search
-constexpr std::size_t kAround = 128, kAroundFollowed = 8;  // places around the best one, at the end
-constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5;
-constexpr std::size_t kMaxLooks = 5;  // around, each time at other places, while the similarity still rises
-constexpr double kRise = 0.002;       // of the similarity
+constexpr double kAmbiguous = 0.9;  // of the similarity
+constexpr int kClimbs = 3;          // most repetitions of the last search
+
+// The looks around the best place, each at other places, while the similarity still rises by the share kRise.
+constexpr std::size_t kMaxLooks = 5, kAround = 64, kAroundFollowed = 5;
+constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5, kRise = 0.005;
+
 constexpr double kMaxStretch = 0.15;
 constexpr std::size_t kPlacesElsewhere = 48;
 constexpr double kElsewhere_mm = 40, kElsewhere_deg = 30, kMinElsewhere_mm = 20;
@@ -72,6 +82,24 @@ struct Run {
 
   double basin_mm() const { return settings.search_mm > 0 ? std::min(kBasin_mm, settings.search_mm / 2) : kBasin_mm; }
 
+  static std::vector<Optimum> evaluated(std::vector<Parameters> places, const EvaluateAll& evaluate) {
+    const std::vector<double> values = evaluate(places);
+    std::vector<Optimum> result;
+    for (std::size_t i = 0; i < places.size(); ++i) result.push_back({std::move(places[i]), values[i], 1, true});
+    return result;
+  }
+
+  // Returns the places that a few images show to be promising, as all images judge them.
+  std::vector<Optimum> sifted(std::vector<Parameters> places, const EvaluateAll& by_few,
+                              const EvaluateAll& by_all) const {
+    std::vector<Optimum> all = evaluated(std::move(places), by_few);
+    std::ranges::stable_sort(all, std::ranges::greater{}, &Optimum::value);
+    const std::size_t kept = std::max(all.size() / kSift, kLeastSifted * std::size_t(settings.followed));
+    std::vector<Parameters> promising;
+    for (std::size_t i = 0; i < std::min(kept, all.size()); ++i) promising.push_back(std::move(all[i].at));
+    return evaluated(std::move(promising), by_all);
+  }
+
   // Returns the best, of which no two lie in one basin, or nearer to each other than `least_mm`.
   std::vector<Optimum> distinct(std::vector<Optimum> ends, std::size_t most,
                                 std::optional<double> least_mm = std::nullopt) const {
@@ -86,12 +114,15 @@ struct Run {
   }
 
   // Returns the highest similarity of the ends that are another place than `best`; 0 if there is none. Ends that lie
-  // closer together are maxima of one basin, though a narrow search follows each of them.
-  double rival_of(const Optimum& best, const std::vector<Optimum>& ends) const {
-    double highest = 0;
-    for (const Optimum& end : ends)
-      if (apart(end.at, best.at) >= kBasin_mm) highest = std::max(highest, end.value);
-    return highest;
+  // closer together are maxima of one basin, though a narrow search follows each of them. So are ends from which a way
+  // leads up to the best one; only those that would matter are tried.
+  double rival_of(const Optimum& best, std::vector<Optimum> ends, const EvaluateAll& evaluate) const {
+    std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
+    for (const Optimum& end : ends) {
+      if (apart(end.at, best.at) < kBasin_mm) continue;
+      if (end.value <= kAmbiguous * best.value || !leads_up(end, best, evaluate)) return end.value;
+    }
+    return 0;
   }
 
   // Looks for a higher maximum beside the best place. There may be several within one basin, of which the searches so
@@ -102,15 +133,13 @@ struct Run {
           scattered_motions(round * kAround, kAround, kAround_mm, glm::radians(kAround_deg) * result.motion.radius_mm);
       for (Parameters& each : around)
         for (std::size_t i = 0; i < each.size(); ++i) each[i] += best.at[i];
-      const std::vector<double> values = evaluate(around);
-      std::vector<Optimum> scattered;
-      for (std::size_t i = 0; i < around.size(); ++i) scattered.push_back({std::move(around[i]), values[i], 1, true});
       std::vector<Parameters> followed{best.at};
-      for (const Optimum& each : distinct(std::move(scattered), kAroundFollowed, kApart_mm))
+      for (const Optimum& each : distinct(evaluated(std::move(around), evaluate), kAroundFollowed, kApart_mm))
         followed.push_back(each.at);
-      const double before = best.value;
-      best = distinct(maximise_from(followed, evaluate, search(1, 0.2, 80)), 1).front();
-      if (round > 0 && best.value - before < kRise * std::abs(before)) break;
+      const std::vector<Optimum> found = maximise_from(followed, evaluate, search(1, 0.2, 80));
+      const double alone = found.front().value;
+      best = distinct(found, 1).front();
+      if (best.value - alone < kRise * std::abs(alone)) break;
     }
     return best;
   }
@@ -186,13 +215,16 @@ SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep&
                                const RegistrationSettings& settings)
     : settings_(settings), targets_(target_points(sweep)) {
   const auto begin = std::chrono::steady_clock::now();
+  wide_volume_ = coarse_volume(volume, kWideVoxel_mm);
   WeinSettings wide = settings.wein;
   wide.samples = kWideWidth;
   if (wide.similarity_patch > 0) wide.similarity_patch = kWidePatch;
   wide.reflection_length_mm = std::max(settings.wein.reflection_length_mm, kWideLength_mm);
   TrackedSweep small = reduced(sweep, settings.wide_slices, kWideWidth, kWideHeight);
   small.probe.lines = kWideWidth;
-  wide_ = similarity_of(volume, small, wide, settings.measure);
+  wide_ = similarity_of(wide_volume_, small, wide, settings.measure);
+  scatter_ =
+      similarity_of(wide_volume_, reduced(small, kScatterSlices, kWideWidth, kWideHeight), wide, settings.measure);
   const Image<float>& full = sweep.images.front().grey;
   compared_ = reduced(sweep, settings.slices, full.width, full.height);
   fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
@@ -203,7 +235,9 @@ void SweepRegistrar::set_images(std::span<const SweepImage> images) {
   const TrackedSweep sweep{Probe(compared_.probe), compared_.depth_mm, {images.begin(), images.end()}};
   const Image<float>& full = compared_.images.front().grey;
   TrackedSweep compared = reduced(sweep, settings_.slices, full.width, full.height);
-  wide_->set_images(reduced(sweep, settings_.wide_slices, kWideWidth, kWideHeight).images);
+  const TrackedSweep small = reduced(sweep, settings_.wide_slices, kWideWidth, kWideHeight);
+  wide_->set_images(small.images);
+  scatter_->set_images(reduced(small, kScatterSlices, kWideWidth, kWideHeight).images);
   fine_->set_images(compared.images);
   compared_ = std::move(compared);
   targets_ = target_points(sweep);
@@ -222,7 +256,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   Run run{settings, targets_, result, false};
   result.motion = motion_about(targets_, start);
   const Parameters none(6, 0.0);
-  const EvaluateAll scatter = run.evaluator(*wide_, kScatter), follow = run.evaluator(*wide_, kWide),
+  const EvaluateAll scatter = run.evaluator(*scatter_, kScatter), follow = run.evaluator(*wide_, kWide),
                     fine = run.evaluator(*fine_, kFine);
   result.similarity_before = fine({&none, 1}).front();
 
@@ -238,11 +272,9 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
            scattered_motions(std::size_t(round * settings.scattered), std::size_t(settings.scattered),
                              settings.search_mm, glm::radians(settings.search_deg) * result.motion.radius_mm))
         starts.push_back(std::move(each));
-    const std::vector<double> values = scatter(starts);
-    std::vector<Optimum> scattered;
-    for (std::size_t i = 0; i < starts.size(); ++i) scattered.push_back({std::move(starts[i]), values[i], 1, true});
     std::vector<Parameters> followed;
-    for (const Optimum& each : run.distinct(std::move(scattered), std::size_t(settings.followed)))
+    for (const Optimum& each :
+         run.distinct(run.sifted(std::move(starts), scatter, follow), std::size_t(settings.followed)))
       followed.push_back(each.at);
     std::vector<Parameters> promising;
     for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
@@ -256,12 +288,13 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     for (Optimum& each : of_round) rough.push_back(std::move(each));
     rough = run.distinct(std::move(rough), kFineStarts);
     if (!wanders) break;
-    if (run.confirmed && run.rival_of(rough.front(), ends) < kAmbiguous * rough.front().value) break;
+    if (run.confirmed && run.rival_of(rough.front(), ends, fine) < kAmbiguous * rough.front().value) break;
   }
   // A narrower search has looked there already.
   const bool is_wide = std::max(settings.search_mm, settings.search_deg) > kAround_mm;
   const Optimum best = is_wide ? run.look_around(rough.front(), fine) : rough.front();
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
+  result.runner_up = run.rival_of(end, ends, fine);
   EvaluateAll last = fine;
   if (settings.freedom == Freedom::affine) {
     end.at.resize(parameters_of(Freedom::affine));
@@ -269,7 +302,6 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600, end.at.size())).front();
   }
   const Uncertainty uncertainty = run.climb_on(end, last, compared_);
-  result.runner_up = run.rival_of(end, ends);
   if (settings.measure == Measure::lc2) result.elsewhere = run.elsewhere(end, run.evaluator(*fine_, kElsewhere));
   result.at = end.at;
   result.similarity_after = end.value;

@@ -108,8 +108,9 @@ public:
 private:
   RegistrationSettings settings_;
   std::vector<glm::dvec3> targets_;
-  TrackedSweep compared_;  // the fine stage's images
-  std::unique_ptr<Similarity> wide_, fine_;
+  AcousticVolume wide_volume_;  // the CT with fewer voxels, for the widest stage
+  TrackedSweep compared_;       // the fine stage's images
+  std::unique_ptr<Similarity> scatter_, wide_, fine_;
   double seconds_to_prepare_ = 0;
 };
 
