@@ -61,6 +61,7 @@ constexpr std::array kEffects{
     flag_effect<&Settings::edge_shadow>("edge_shadow"),
     flag_effect<&Settings::clutter>("clutter"),
     flag_effect<&Settings::electronic_noise>("noise"),
+    strength_effect<&Settings::ring_down>("ring_down"),
     flag_effect<&Settings::two_way>("two_way"),
     number_effect<&Settings::focus_mm>("focus_mm", 10, 240),
     number_effect<&Settings::f_number>("f_number", 1, 10),

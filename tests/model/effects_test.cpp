@@ -11,7 +11,7 @@ using namespace insonate;
 
 TEST_CASE("every effect has a name of its own, is on in the trainer, and changes the settings") {
   std::set<std::string_view> names;
-  const Settings usual = trainer_settings(3.5, 150);
+  const Settings usual = with_usual_display(trainer_settings(3.5, 150));
   for (const Effect& effect : effects()) {
     CAPTURE(effect.name);
     CHECK(names.insert(effect.name).second);

@@ -28,6 +28,7 @@ constexpr EffectWords kWords[] = {
     {"edge_shadow", "Edge shadows", "Round edges refract the sound, and dark lines run down from them."},
     {"clutter", "Clutter", "Side lobes and layers of the body wall bring haze into fluid and shadows."},
     {"noise", "Noise", "The receiver's own noise, which shows where time gain is high."},
+    {"ring_down", "Ring-down", "The transducer rings on after its pulse: a white band at its face."},
     {"two_way", "Two-way loss", "Echoes get weaker on their way back, too."},
     {"focus_mm", "Focus", "The depth at which the transmitted beam is narrowest."},
     {"f_number", "F-number", "Focus over aperture: a small one is a narrow beam at its focus."},
@@ -81,7 +82,7 @@ bool draw_effects_panel(const Theme& theme, const Rect& panel, Session& session,
   std::vector<const Effect*> switches, numbers;
   for (const Effect& effect : effects()) (effect.is_switch() ? switches : numbers).push_back(&effect);
 
-  constexpr std::size_t kPerRow = 3;
+  constexpr std::size_t kPerRow = 4;
   const float width = (rest.w - gap * float(kPerRow - 1)) / float(kPerRow);
   const float row_high = std::min(high, (rest.h - theme.px(104)) / 4 - theme.px(4));
   for (std::size_t first = 0; first < switches.size(); first += kPerRow) {
