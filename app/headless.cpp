@@ -128,7 +128,8 @@ int run_headless(const Options& options) {
     trainer.finish_recording();
     const std::filesystem::path recording = trainer.recorder().file();
     print_file(recording);
-    if (std::filesystem::exists(images_of(recording))) print_file(images_of(recording));
+    std::error_code error;
+    if (options.record_images && std::filesystem::exists(images_of(recording), error)) print_file(images_of(recording));
   }
   if (!trainer.raw_file().empty()) print_file(trainer.raw_file());
   if (!options.latency.empty()) {

@@ -14,7 +14,7 @@ namespace insonate {
 /// Returns the name of the `part`-th of several files, counted from 1: scan.igs.mha, scan-2.igs.mha, scan-3.igs.mha...
 std::filesystem::path part_of(const std::filesystem::path& file, int part);
 
-/// Returns the file of a recording's pictures, FILE-images, whether there is one or not.
+/// Returns the file of a recording's pictures, FILE-images, which need not exist.
 std::filesystem::path images_of(const std::filesystem::path& file);
 
 /// Writes the files of one recorded run.

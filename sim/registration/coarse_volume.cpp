@@ -4,7 +4,6 @@
 #include <glm/vec3.hpp>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

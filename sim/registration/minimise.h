@@ -39,9 +39,9 @@ struct Optimum {
 std::vector<Optimum> maximise_from(const std::vector<Parameters>& starts, const EvaluateAll& evaluate,
                                    const LocalSearch& search);
 
-/// Returns whether two places lie on one hill, the second higher: along the straight way between them, in 8 steps, the
-/// values never fall below 0.98 times the first's. A dip of less is unevenness. Places as high as each other, up to
-/// that share, are a plateau, which leads nowhere.
+/// Returns whether a higher place lies on the same hill: along the straight way to it, in 8 steps, no value is below
+/// 0.98 times that of `from`. A smaller dip is unevenness. False if `from` reaches 0.98 times the value of `to`: of two
+/// places on a plateau, none is the better one. Values must be shares, from 0 on.
 bool leads_up(const Optimum& from, const Optimum& to, const EvaluateAll& evaluate);
 
 /// Returns parameters of rigid motions that fill a range: translations in a ball, rotations in another. They are points

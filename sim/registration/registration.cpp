@@ -20,14 +20,15 @@ namespace {
 
 enum Stage { kScatter, kWide, kFine, kAffine, kElsewhere };
 
-// The widest stage. Its voxels are larger, because places that are scattered over a whole CT wait for its memory, and
-// its reflections are longer, so that interfaces are as wide as a pixel.
+// The widest stage. Voxels are joined up to this size, because places that are scattered over a whole CT wait for its
+// memory. Reflections are longer, so that interfaces are as wide as a pixel.
 constexpr int kWideWidth = 64, kWideHeight = 48, kWidePatch = 8;  // pixels
 constexpr double kWideVoxel_mm = 2, kWideLength_mm = 4;
 
-// A few of its images sort out most of the scattered places: one in kSift is looked at with all of them, but at least
-// kLeastSifted for each that is followed.
+// A few of its images, of those that vary at least kTelling times as much as the one that varies most, sort out most of
+// the scattered places: one in kSift is looked at with all images, but at least kLeastSifted for each that is followed.
 constexpr int kScatterSlices = 4;
+constexpr double kTelling = 0.1;
 constexpr std::size_t kSift = 4, kLeastSifted = 4;
 
 constexpr std::size_t kFineStarts = 4;
@@ -36,7 +37,8 @@ constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
 constexpr int kClimbs = 3;          // most repetitions of the last search
 
-// The looks around the best place, each at other places, while the similarity still rises by the share kRise.
+// The looks around the best place, each at other places. They go on while a search from one of them ends higher than
+// that from the best place itself, by the share kRise.
 constexpr std::size_t kMaxLooks = 5, kAround = 64, kAroundFollowed = 5;
 constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5, kRise = 0.005;
 
@@ -49,6 +51,16 @@ constexpr double kStandsOut = 1.5;
 std::unique_ptr<Similarity> similarity_of(const AcousticVolume& volume, const TrackedSweep& sweep,
                                           const WeinSettings& wein, Measure measure) {
   return measure == Measure::lc2 ? lc2_similarity(volume, sweep, wein) : slice_similarity(measure, volume, sweep, wein);
+}
+
+// Returns the few images by which scattered places are sorted out.
+TrackedSweep scatter_images(const TrackedSweep& wide) {
+  double most = 0;
+  for (const SweepImage& image : wide.images) most = std::max(most, variation_in_depth(image.grey));
+  TrackedSweep telling{Probe(wide.probe), wide.depth_mm, {}};
+  for (const SweepImage& image : wide.images)
+    if (variation_in_depth(image.grey) >= kTelling * most) telling.images.push_back(image);
+  return reduced(telling, kScatterSlices, kWideWidth, kWideHeight);
 }
 
 // The search of one registration, with what its stages share.
@@ -84,19 +96,21 @@ struct Run {
 
   static std::vector<Optimum> evaluated(std::vector<Parameters> places, const EvaluateAll& evaluate) {
     const std::vector<double> values = evaluate(places);
-    std::vector<Optimum> result;
-    for (std::size_t i = 0; i < places.size(); ++i) result.push_back({std::move(places[i]), values[i], 1, true});
-    return result;
+    std::vector<Optimum> all;
+    for (std::size_t i = 0; i < places.size(); ++i) all.push_back({std::move(places[i]), values[i], 1, true});
+    return all;
   }
 
-  // Returns the places that a few images show to be promising, as all images judge them.
+  // Returns what all images make of the places that a few images find promising, or of all places if they are not many
+  // more than that.
   std::vector<Optimum> sifted(std::vector<Parameters> places, const EvaluateAll& by_few,
                               const EvaluateAll& by_all) const {
+    const std::size_t kept = std::max(places.size() / kSift, kLeastSifted * std::size_t(settings.followed));
+    if (places.size() <= 2 * kept) return evaluated(std::move(places), by_all);
     std::vector<Optimum> all = evaluated(std::move(places), by_few);
     std::ranges::stable_sort(all, std::ranges::greater{}, &Optimum::value);
-    const std::size_t kept = std::max(all.size() / kSift, kLeastSifted * std::size_t(settings.followed));
     std::vector<Parameters> promising;
-    for (std::size_t i = 0; i < std::min(kept, all.size()); ++i) promising.push_back(std::move(all[i].at));
+    for (std::size_t i = 0; i < kept; ++i) promising.push_back(std::move(all[i].at));
     return evaluated(std::move(promising), by_all);
   }
 
@@ -115,12 +129,14 @@ struct Run {
 
   // Returns the highest similarity of the ends that are another place than `best`; 0 if there is none. Ends that lie
   // closer together are maxima of one basin, though a narrow search follows each of them. So are ends from which a way
-  // leads up to the best one; only those that would matter are tried.
+  // leads up to the best one, which is tried where it matters. Mutual information is no share, so nothing is tried.
   double rival_of(const Optimum& best, std::vector<Optimum> ends, const EvaluateAll& evaluate) const {
     std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
     for (const Optimum& end : ends) {
       if (apart(end.at, best.at) < kBasin_mm) continue;
-      if (end.value <= kAmbiguous * best.value || !leads_up(end, best, evaluate)) return end.value;
+      if (end.value <= kAmbiguous * best.value || settings.measure == Measure::mutual_information ||
+          !leads_up(end, best, evaluate))
+        return end.value;
     }
     return 0;
   }
@@ -137,9 +153,9 @@ struct Run {
       for (const Optimum& each : distinct(evaluated(std::move(around), evaluate), kAroundFollowed, kApart_mm))
         followed.push_back(each.at);
       const std::vector<Optimum> found = maximise_from(followed, evaluate, search(1, 0.2, 80));
-      const double alone = found.front().value;
+      const double from_best = found.front().value;
       best = distinct(found, 1).front();
-      if (best.value - alone < kRise * std::abs(alone)) break;
+      if (best.value - from_best < kRise * std::abs(from_best)) break;
     }
     return best;
   }
@@ -223,8 +239,7 @@ SweepRegistrar::SweepRegistrar(const AcousticVolume& volume, const TrackedSweep&
   TrackedSweep small = reduced(sweep, settings.wide_slices, kWideWidth, kWideHeight);
   small.probe.lines = kWideWidth;
   wide_ = similarity_of(wide_volume_, small, wide, settings.measure);
-  scatter_ =
-      similarity_of(wide_volume_, reduced(small, kScatterSlices, kWideWidth, kWideHeight), wide, settings.measure);
+  scatter_ = similarity_of(wide_volume_, scatter_images(small), wide, settings.measure);
   const Image<float>& full = sweep.images.front().grey;
   compared_ = reduced(sweep, settings.slices, full.width, full.height);
   fine_ = similarity_of(volume, compared_, settings.wein, settings.measure);
@@ -237,7 +252,7 @@ void SweepRegistrar::set_images(std::span<const SweepImage> images) {
   TrackedSweep compared = reduced(sweep, settings_.slices, full.width, full.height);
   const TrackedSweep small = reduced(sweep, settings_.wide_slices, kWideWidth, kWideHeight);
   wide_->set_images(small.images);
-  scatter_->set_images(reduced(small, kScatterSlices, kWideWidth, kWideHeight).images);
+  scatter_->set_images(scatter_images(small).images);
   fine_->set_images(compared.images);
   compared_ = std::move(compared);
   targets_ = target_points(sweep);
@@ -256,8 +271,8 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   Run run{settings, targets_, result, false};
   result.motion = motion_about(targets_, start);
   const Parameters none(6, 0.0);
-  const EvaluateAll scatter = run.evaluator(*scatter_, kScatter), follow = run.evaluator(*wide_, kWide),
-                    fine = run.evaluator(*fine_, kFine);
+  const EvaluateAll sift = run.evaluator(*scatter_, kScatter), scatter = run.evaluator(*wide_, kScatter),
+                    follow = run.evaluator(*wide_, kWide), fine = run.evaluator(*fine_, kFine);
   result.similarity_before = fine({&none, 1}).front();
 
   // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds in
@@ -274,7 +289,7 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
         starts.push_back(std::move(each));
     std::vector<Parameters> followed;
     for (const Optimum& each :
-         run.distinct(run.sifted(std::move(starts), scatter, follow), std::size_t(settings.followed)))
+         run.distinct(run.sifted(std::move(starts), sift, scatter), std::size_t(settings.followed)))
       followed.push_back(each.at);
     std::vector<Parameters> promising;
     for (const Optimum& each : run.distinct(maximise_from(followed, follow, run.search(5, 0.5, 120)), kFineStarts))
@@ -294,14 +309,16 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
   const bool is_wide = std::max(settings.search_mm, settings.search_deg) > kAround_mm;
   const Optimum best = is_wide ? run.look_around(rough.front(), fine) : rough.front();
   Optimum end = maximise_from({best.at}, fine, run.search(0.7, 0.01, 250)).front();
-  result.runner_up = run.rival_of(end, ends, fine);
   EvaluateAll last = fine;
+  const Optimum rigid_end = end;
   if (settings.freedom == Freedom::affine) {
     end.at.resize(parameters_of(Freedom::affine));
     last = run.evaluator(*fine_, kAffine);
     end = maximise_from({end.at}, last, run.search(0.7, 0.01, 600, end.at.size())).front();
   }
   const Uncertainty uncertainty = run.climb_on(end, last, compared_);
+  // All ends are of rigid motions, so they are compared with one.
+  result.runner_up = run.rival_of(settings.freedom == Freedom::rigid ? end : rigid_end, ends, fine);
   if (settings.measure == Measure::lc2) result.elsewhere = run.elsewhere(end, run.evaluator(*fine_, kElsewhere));
   result.at = end.at;
   result.similarity_after = end.value;

@@ -35,10 +35,10 @@ struct RegistrationSettings {
 
   double search_mm = 30;   ///< how far the start may be off, 0 (search from the start alone) to 200
   double search_deg = 25;  ///< likewise, 0 to 90
-  int scattered = 2000;    ///< places that the widest stage evaluates, 1 to 100000
+  int scattered = 2000;    ///< places at which a round begins, 1 to 100000
   int followed = 16;       ///< the best of them, from which local searches start, 1 to 64
   int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see register_sweep()
-  int wide_slices = 12;    ///< images of the widest stage, 1 to 1000
+  int wide_slices = 12;    ///< images of the widest stage, 1 to 1000; four of them sort the places out
   int slices = 20;         ///< images of the finer stages, 1 to 1000
 
   int batch = 512;  ///< most places per call of the similarity, 1 to 4096: bounds memory, and how long a call takes
@@ -68,7 +68,8 @@ struct SweepRegistration {
   Parameters at;                  ///< where the search ended
   glm::dmat4 ct_from_sweep{1.0};  ///< the map there
   double similarity_before = 0, similarity_after = 0;
-  double runner_up = 0;  ///< highest similarity of the fine stage's ends that are another place; 0 if there is none
+  double runner_up = 0;  ///< highest similarity of the fine stage's ends that are another place, 8 mm or more away;
+                         ///< from 0.9 times the best on, none from which the way leads up to it; 0 if there is none
   double elsewhere = 0;  ///< LC2 that one in ten places exceeds, 20 mm and more away from the end; 0 otherwise
   std::vector<std::string> doubts;      ///< why it did not converge, as parts of sentences; empty if it did
   std::vector<double> deviation;        ///< standard deviation of each parameter, mm; see uncertainty.h
@@ -80,11 +81,11 @@ struct SweepRegistration {
 };
 
 /// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
-/// scattered over the search range, with small images, and follows the best by local searches. The finer stages go on
-/// from the best ends with the images as they are. That is repeated with other places until two rounds in succession
-/// agree on the best end, and no other end is nearly as similar. At last it looks around that end for a higher one:
-/// one basin may hold several. With a search range of 0, local searches from the start alone go through the same
-/// stages; they never end at a lower similarity than the start's.
+/// scattered over the search range, with small images in a CT of large voxels, and follows the best by local searches.
+/// The finer stages go on from the best ends with the images as they are. That is repeated with other places until two
+/// rounds in succession agree on the best end, and no other end is nearly as similar. At last it looks around that end
+/// for a higher one: one basin may hold several. With a search range of 0, local searches from the start alone go
+/// through the same stages; they never end at a lower similarity than the start's.
 ///
 /// LC2 needs an OpenGL context that is current at every use.
 class SweepRegistrar {
@@ -92,6 +93,8 @@ public:
   /// Prepares the similarities, which takes longer than one search from the start alone. Throws what they throw.
   /// @param volume  must outlive the registrar
   SweepRegistrar(const AcousticVolume& volume, const TrackedSweep& sweep, const RegistrationSettings& settings);
+  SweepRegistrar(const SweepRegistrar&) = delete;  // similarities refer to its members
+  SweepRegistrar& operator=(const SweepRegistrar&) = delete;
 
   /// Replaces the sweep's images, whose probe and depth stay. Images of another size are resampled to that of the
   /// first.

@@ -73,6 +73,19 @@ Image<float> resampled(const Image<float>& image, const glm::dmat3& pixel_from_p
   return result;
 }
 
+double variation_in_depth(const Image<float>& grey) {
+  double count = 0, sum = 0, squares = 0;
+  for (int y = grey.height / 5; y < grey.height * 3 / 5; ++y)
+    for (int x = 0; x < grey.width; ++x) {
+      const double value = grey.at(x, y);
+      if (std::isnan(value)) continue;
+      ++count;
+      sum += value;
+      squares += value * value;
+    }
+  return count > 0 ? squares - sum * sum / count : 0;
+}
+
 TrackedSweep reduced(const TrackedSweep& sweep, int count, int width, int height) {
   TrackedSweep result{Probe(sweep.probe), sweep.depth_mm, {}};
   const ImageGeometry to = image_geometry(sweep.probe, sweep.depth_mm, width, height);

@@ -42,6 +42,10 @@ double target_error_mm(const std::vector<glm::dvec3>& points, const glm::dmat4& 
 /// @param geometry          of the result
 Image<float> resampled(const Image<float>& image, const glm::dmat3& pixel_from_plane, const ImageGeometry& geometry);
 
+/// Returns the sum of squares by which an image's known pixels differ from their mean, between a fifth and three fifths
+/// of its rows. A probe in the air shows nothing there: its own ringing lies above, its noise below.
+double variation_in_depth(const Image<float>& grey);
+
 /// Returns a sweep with fewer and smaller images: `count` of them, evenly spread, or all if there are not more.
 /// @param width, height  pixels, 8 or more
 TrackedSweep reduced(const TrackedSweep& sweep, int count, int width, int height);

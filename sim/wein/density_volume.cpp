@@ -14,27 +14,29 @@ namespace {
 
 constexpr double kStepsPerHu = 8;  // of the stored gradient, as in wein_traverse.comp
 
-// Returns HU at a place that lies so many voxels after voxel i of a row, whose `count` voxels lie `stride` apart; air
-// beyond its ends.
-double hu_at(const AcousticVoxel* voxel, int i, std::ptrdiff_t stride, int count, const VoxelsAfter& place) {
+// Returns HU at an offset from voxel i of a row, whose `count` voxels lie `stride` apart; air beyond its ends.
+double hu_at(const AcousticVoxel* voxel, int i, std::ptrdiff_t stride, int count, const VoxelOffset& place) {
   const int below = i + place.whole;
   const double hu = below >= 0 && below < count ? voxel[place.whole * stride].hu : AcousticVoxel{}.hu,
                next = below >= -1 && below < count - 1 ? voxel[(place.whole + 1) * stride].hu : AcousticVoxel{}.hu;
   return hu + place.share * (next - hu);
 }
 
+// Returns half a length along each axis.
+std::array<VoxelOffset, 3> half_a_length(const Grid& grid, double length_mm) {
+  const auto along = [&](int axis) { return VoxelOffset(length_mm / 2 / grid.spacing[axis]); };
+  return {along(0), along(1), along(2)};
+}
+
 }  // namespace
 
-VoxelsAfter::VoxelsAfter(double voxels) : whole(int(std::floor(voxels))), share(voxels - whole) {}
+VoxelOffset::VoxelOffset(double voxels) : whole(int(std::floor(voxels))), share(voxels - whole) {}
 
 DensityChange::DensityChange(const AcousticVolume& volume, double reflection_length_mm)
-    : volume_(volume), stride_(1, volume.grid.size.x, std::ptrdiff_t(volume.grid.size.x) * volume.grid.size.y) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double half = reflection_length_mm / 2 / volume.grid.spacing[axis];
-    ahead_.emplace_back(half);
-    behind_.emplace_back(-half);
-  }
-}
+    : volume_(volume),
+      stride_(1, volume.grid.size.x, std::ptrdiff_t(volume.grid.size.x) * volume.grid.size.y),
+      ahead_(half_a_length(volume.grid, reflection_length_mm)),
+      behind_(half_a_length(volume.grid, -reflection_length_mm)) {}
 
 glm::dvec3 DensityChange::at(const glm::ivec3& voxel) const {
   const AcousticVoxel* here = volume_.voxels.data() + volume_.grid.offset(voxel);

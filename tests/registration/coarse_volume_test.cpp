@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cstddef>
+#include <cstdint>
+
 using namespace insonate;
 
 namespace {

@@ -83,27 +83,24 @@ TEST_CASE("an error of the evaluation ends all searches and reaches the caller")
 }
 
 TEST_CASE("a place leads up to a higher one where no valley lies between them and it is no plateau") {
-  // Two hills: one of height 1 at x = 0, one of `height` at x = 10, as wide as each other; uneven by 1 %.
-  double height = 0, width = 0;
+  // A slope from 0.8 at x = 0 to 1 at x = 10, with a valley of some depth at x = 2.5.
+  double depth = 0;
   const EvaluateAll evaluate = [&](std::span<const Parameters> all) {
     std::vector<double> values;
-    for (const Parameters& x : all)
-      values.push_back(
-          (1 + 0.005 * std::cos(40 * x[0])) *
-          std::max(std::exp(-std::pow(x[0] / width, 2)), height * std::exp(-std::pow((x[0] - 10) / width, 2))));
+    for (const Parameters& x : all) values.push_back((0.8 + 0.02 * x[0]) - depth * std::exp(-std::pow(x[0] - 2.5, 2)));
     return values;
   };
   const auto leads = [&](double from, double to) {
     const std::vector<double> values = evaluate(std::vector<Parameters>{{from, 3}, {to, -2}});
     return leads_up({{from, 3}, values[0], 1, true}, {{to, -2}, values[1], 1, true}, evaluate);
   };
-  height = 0.9;
-  width = 4;
-  CHECK(leads(3, 0));         // up the slope of the higher hill
-  CHECK_FALSE(leads(0, 3));   // and down
-  CHECK_FALSE(leads(10, 0));  // over the valley
-  width = 100;
-  CHECK_FALSE(leads(8, 0));  // 0.994 of the height
+  CHECK(leads(0, 10));
+  CHECK_FALSE(leads(10, 0));
+  CHECK_FALSE(leads(9.5, 10));  // 0.99 of the height
+  depth = 0.06;                 // 0.79 at the bottom, 0.987 of 0.8
+  CHECK(leads(0, 10));
+  depth = 0.08;  // 0.77
+  CHECK_FALSE(leads(0, 10));
 }
 
 TEST_CASE("scattered motions fill two balls, denser at the middle, and never repeat") {

@@ -70,6 +70,23 @@ TEST_CASE("a synthetic sweep of model S is registered with the body that it show
         }).similarity >= Approx(found.similarity_after).margin(1e-6));
 }
 
+// Voxels of 0.65 to 1.05 mm are joined for the widest stage; those of the body above are not.
+TEST_CASE("a sweep is registered with a CT whose voxels are joined for the widest stage") {
+  const Fixture f;
+  AcousticVolume fine;
+  fine.grid = f.body.grid;
+  fine.grid.size = f.body.grid.size * 2;
+  fine.grid.spacing = f.body.grid.spacing / 2.0;
+  fine.grid.origin = f.body.grid.patient_from_index(glm::dvec3(-0.25));
+  for (int k = 0; k < fine.grid.size.z; ++k)
+    for (int j = 0; j < fine.grid.size.y; ++j)
+      for (int i = 0; i < fine.grid.size.x; ++i) fine.voxels.push_back(f.body.at({i / 2, j / 2, k / 2}));
+  const SweepRegistration found = SweepRegistrar(fine, f.sweep, f.settings).from(f.start({4, -3, 3}, 6));
+  INFO("doubts: " << (found.doubts.empty() ? std::string("none") : found.doubts.front()));
+  CHECK(f.error(found) < 2);  // as above
+  CHECK(found.converged());
+}
+
 // The similarity is uneven: local searches alone end up to 1.6 % below the highest place around.
 TEST_CASE("registrations from several starts end about equally high") {
   const Fixture f;

@@ -70,3 +70,16 @@ TEST_CASE("the target error of a shift is its length, and that of a turn grows w
   for (const glm::dvec3& p : points) squares += std::pow(2 * std::sin(0.05), 2) * (p.y * p.y + p.z * p.z);
   CHECK(target_error_mm(points, one, turn) == Approx(std::sqrt(squares / 75)));
 }
+
+TEST_CASE("an image varies in depth by what lies there, not by the probe's ringing or noise") {
+  Image<float> in_air(40, 50), tissue(40, 50);
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 40; ++x) {
+      in_air.at(x, y) = y < 10 ? 255.0F : y >= 30 ? float(60 * (x % 2)) : 0.0F;
+      tissue.at(x, y) = x % 2 == 0 ? 30.0F : 34.0F;
+    }
+  tissue.at(7, 20) = std::numeric_limits<float>::quiet_NaN();
+  CHECK(variation_in_depth(in_air) == 0);
+  // 20 rows of 40 pixels, all but one known, each 2 from the mean of 32 but for the missing one's share.
+  CHECK(variation_in_depth(tissue) == Approx(4 * 799 - 4.0 / 799));
+}

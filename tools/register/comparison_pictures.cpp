@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "sim/core/image.h"
@@ -50,31 +51,17 @@ Image<double> ct_slice(const Volume<std::int16_t>& ct, const glm::dmat4& ct_from
   return result;
 }
 
-// Returns how much an image varies in the middle of its depth, where a probe in the air shows nothing.
-double told_by(const Image<float>& grey) {
-  double count = 0, sum = 0, squares = 0;
-  for (int y = grey.height / 5; y < grey.height * 3 / 5; ++y)
-    for (int x = 0; x < grey.width; ++x) {
-      const double value = grey.at(x, y);
-      if (std::isnan(value)) continue;
-      ++count;
-      sum += value;
-      squares += value * value;
-    }
-  return count > 0 ? squares - sum * sum / count : 0;
-}
-
-// Returns up to `count` images, in their order: evenly spread among the half that shows most.
+// Returns up to `count` images, in their order: evenly spread among the half that varies most.
 std::vector<std::size_t> shown_images(const std::vector<SweepImage>& images, std::size_t count) {
-  std::vector<double> told;
-  for (const SweepImage& image : images) told.push_back(told_by(image.grey));
-  std::vector<std::size_t> telling(images.size()), chosen;
-  std::iota(telling.begin(), telling.end(), std::size_t(0));
-  std::ranges::stable_sort(telling, std::ranges::greater{}, [&](std::size_t i) { return told[i]; });
-  telling.resize(std::min(images.size(), std::max(images.size() / 2, count)));
-  std::ranges::sort(telling);
-  const std::size_t kept = std::min(count, telling.size());
-  for (std::size_t i = 0; i < kept; ++i) chosen.push_back(telling[(2 * i + 1) * telling.size() / (2 * kept)]);
+  std::vector<double> variation;
+  for (const SweepImage& image : images) variation.push_back(variation_in_depth(image.grey));
+  std::vector<std::size_t> candidates(images.size()), chosen;
+  std::iota(candidates.begin(), candidates.end(), std::size_t(0));
+  std::ranges::stable_sort(candidates, std::ranges::greater{}, [&](std::size_t i) { return variation[i]; });
+  candidates.resize(std::min(images.size(), std::max(images.size() / 2, count)));
+  std::ranges::sort(candidates);
+  const std::size_t kept = std::min(count, candidates.size());
+  for (std::size_t i = 0; i < kept; ++i) chosen.push_back(candidates[(2 * i + 1) * candidates.size() / (2 * kept)]);
   return chosen;
 }
 
