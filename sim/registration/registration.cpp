@@ -37,8 +37,8 @@ constexpr double kBasin_deg = 8;
 constexpr double kAmbiguous = 0.9;  // of the similarity
 constexpr int kClimbs = 3;          // most repetitions of the last search
 
-// The looks around the best place, each at other places. They go on while a search from one of them ends higher than
-// that from the best place itself, by the share kRise.
+// The looks around the best place, each at other places: two at least, and then while a search from one of them ends
+// higher than that from the best place itself, by the share kRise.
 constexpr std::size_t kMaxLooks = 5, kAround = 64, kAroundFollowed = 5;
 constexpr double kAround_mm = 6, kAround_deg = 6, kApart_mm = 1.5, kRise = 0.005;
 
@@ -155,7 +155,7 @@ struct Run {
       const std::vector<Optimum> found = maximise_from(followed, evaluate, search(1, 0.2, 80));
       const double from_best = found.front().value;
       best = distinct(found, 1).front();
-      if (best.value - from_best < kRise * std::abs(from_best)) break;
+      if (round > 0 && best.value - from_best < kRise * std::abs(from_best)) break;
     }
     return best;
   }
