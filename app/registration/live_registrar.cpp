@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPlaces = 16;                    // per call: 0.6 s of two cores without a graphics card
 constexpr std::size_t kImagesToSearch = 20;    // of a wide search that nobody has asked for, if it takes as many
-constexpr double kSamePlace_mm = 8;            // as register_sweep() counts ends as one
+constexpr double kSamePlace_mm = 8;            // as SweepRegistrar counts ends as one
 constexpr double kNear_mm = 6, kNear_deg = 6;  // how far a round looks around the estimate before it is confirmed
 constexpr int kNearScattered = 64;
 constexpr int kNiceness = 10;  // a tenth of the processor beside a program that takes all of it

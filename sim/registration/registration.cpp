@@ -129,7 +129,7 @@ struct Run {
 
   // Returns the highest similarity of the ends that are another place than `best`; 0 if there is none. Ends that lie
   // closer together are maxima of one basin, though a narrow search follows each of them. So are ends from which a way
-  // leads up to the best one, which is tried where it matters. Mutual information is no share, so nothing is tried.
+  // leads up to the best one, which is tried where it matters. Mutual information is not a share: none is tried.
   double rival_of(const Optimum& best, std::vector<Optimum> ends, const EvaluateAll& evaluate) const {
     std::ranges::stable_sort(ends, std::ranges::greater{}, &Optimum::value);
     for (const Optimum& end : ends) {

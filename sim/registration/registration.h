@@ -37,7 +37,7 @@ struct RegistrationSettings {
   double search_deg = 25;  ///< likewise, 0 to 90
   int scattered = 2000;    ///< places at which a round begins, 1 to 100000
   int followed = 16;       ///< the best of them, from which local searches start, 1 to 64
-  int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see register_sweep()
+  int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see SweepRegistrar
   int wide_slices = 12;    ///< images of the widest stage, 1 to 1000; four of them sort the places out
   int slices = 20;         ///< images of the finer stages, 1 to 1000
 

@@ -35,8 +35,7 @@ private:
 
 /// Returns a CT with its gradient: (HU, its differences along the CT's axes i, j, k in eighths of HU) / 32767, with
 /// kAirMargin of air without a gradient around it. Differences above 4095 HU are clamped to that. A voxel takes 8
-/// bytes. Floats would take 16 and, with llvmpipe, make images that lie close together 13 % faster, but those of a
-/// registration in a CT of 33 million voxels 15 % slower. Throws TextureRefused.
+/// bytes. Floats of 16 bytes were tried (docs/benchmarks, `batch`). Throws TextureRefused.
 /// @param reflection_length_mm  differences are taken over this length, 0.01 to 20
 Texture density_volume(const AcousticVolume& volume, double reflection_length_mm);
 

@@ -82,7 +82,7 @@ TEST_CASE("an error of the evaluation ends all searches and reaches the caller")
   CHECK_THROWS_WITH(maximise_from({{0, 0, 0}, {1, 1, 1}}, evaluate, within(10)), "the device is gone");
 }
 
-TEST_CASE("a place leads up to a higher one where no valley lies between them and it is no plateau") {
+TEST_CASE("a place leads up to a higher one unless a valley lies between them or both are as high") {
   // A slope from 0.8 at x = 0 to 1 at x = 10, with a valley of some depth at x = 2.5.
   double depth = 0;
   const EvaluateAll evaluate = [&](std::span<const Parameters> all) {
