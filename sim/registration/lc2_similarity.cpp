@@ -33,12 +33,13 @@ public:
     simulator_.set_ultrasound(grey);
   }
 
-  std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) override {
+  std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep, ImageRange used) override {
+    const auto poses = used.of(std::span<const glm::dmat4>(sweep_from_probe_));
     places_.clear();
     for (const glm::dmat4& place : ct_from_sweep)
-      for (const glm::dmat4& of_image : sweep_from_probe_) places_.push_back(place * of_image);
-    const std::vector<float> similar = simulator_.similarity(places_);
-    const std::vector<double>& weights = simulator_.ultrasound_variation();
+      for (const glm::dmat4& of_image : poses) places_.push_back(place * of_image);
+    const std::vector<float> similar = simulator_.similarity(places_, used);
+    const auto weights = used.of(std::span<const double>(simulator_.ultrasound_variation()));
     double all = 0;
     for (const double weight : weights) all += weight;
     std::vector<double> result(ct_from_sweep.size());

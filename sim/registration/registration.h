@@ -60,7 +60,7 @@ struct Evaluation {
 };
 
 /// The stages of a registration, from coarse to fine, and then what is similar by chance.
-inline constexpr std::array<const char*, 5> kStages{"scatter", "wide", "fine", "affine", "elsewhere"};
+inline constexpr std::array<const char*, 6> kStages{"scatter", "wide", "fine", "look", "affine", "elsewhere"};
 
 /// The result of a registration.
 struct SweepRegistration {
@@ -83,9 +83,9 @@ struct SweepRegistration {
 /// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
 /// scattered over the search range, with small images in a CT of large voxels, and follows the best by local searches.
 /// The finer stages go on from the best ends with the images as they are. That is repeated with other places until two
-/// rounds in succession agree on the best end, and no other end is nearly as similar. At last it looks around that end
-/// for a higher one: one basin may hold several. With a search range of 0, local searches from the start alone go
-/// through the same stages; they never end at a lower similarity than the start's.
+/// rounds in succession agree on the best end, and no other end is nearly as similar. At last the halves of the images
+/// look around that end in turn for a higher one: one basin may hold several. With a search range of 0, local searches
+/// from the start alone go through the same stages; they never end at a lower similarity than the start's.
 ///
 /// LC2 needs an OpenGL context that is current at every use.
 class SweepRegistrar {

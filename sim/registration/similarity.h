@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/core/image_range.h"
 #include "sim/registration/tracked_sweep.h"
 #include "sim/tissue/acoustic_volume.h"
 #include "sim/wein/wein_settings.h"
@@ -31,7 +32,9 @@ public:
   virtual ~Similarity() = default;
   /// Returns one number per place, higher where they are more similar. LC2 and the correlation ratio are 0 to 1,
   /// mutual information is 1 to 2.
-  virtual std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) = 0;
+  /// @param used  only these of the sweep's images count; at least one
+  virtual std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep, ImageRange used) = 0;
+  std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) { return at(ct_from_sweep, ImageRange{}); }
   /// Replaces the sweep's images, which costs far less than another similarity. There may be more or fewer than before.
   /// Throws std::invalid_argument for images of another size than the first ones.
   virtual void set_images(std::span<const SweepImage> images) = 0;

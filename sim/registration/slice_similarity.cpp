@@ -77,6 +77,7 @@ public:
   void set_images(std::span<const SweepImage> images) override {
     const ImageGeometry geometry = image_geometry(probe_, depth_mm_, width_, height_);
     counted_.clear();
+    image_begins_.assign(1, 0);
     float least = 1e30f, most = -1e30f;
     for (const SweepImage& image : images) {
       if (image.grey.width != width_ || image.grey.height != height_)
@@ -90,15 +91,19 @@ public:
           least = std::min(least, u);
           most = std::max(most, u);
         }
+      image_begins_.push_back(counted_.size());
     }
     for (Counted& pixel : counted_)
       pixel.bin = std::clamp(int(float(kBins) * (pixel.u - least) / std::max(most - least, 1e-20f)), 0, kBins - 1);
   }
 
-  std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep) override {
+  std::vector<double> at(std::span<const glm::dmat4> ct_from_sweep, ImageRange used) override {
+    const ImageRange images = used.within(image_begins_.size() - 1);
+    const std::size_t begin = image_begins_[images.first], end = image_begins_[images.first + images.count];
+    const std::span<const Counted> pixels = std::span(counted_).subspan(begin, end - begin);
     std::vector<double> result(ct_from_sweep.size());
     tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
-      const Histogram h = histogram(glm::mat4(index_from_patient_ * ct_from_sweep[i]));
+      const Histogram h = histogram(pixels, glm::mat4(index_from_patient_ * ct_from_sweep[i]));
       result[i] = measure_ == Measure::mutual_information ? mutual_information(h) : correlation_ratio(h);
     });
     return result;
@@ -122,9 +127,9 @@ private:
     return near + f.z * (far - near);
   }
 
-  Histogram histogram(const glm::mat4& index_from_sweep) const {
+  Histogram histogram(std::span<const Counted> pixels, const glm::mat4& index_from_sweep) const {
     Histogram h;
-    for (const Counted& pixel : counted_) {
+    for (const Counted& pixel : pixels) {
       const float value = hu(glm::vec3(index_from_sweep * glm::vec4(pixel.in_sweep, 1)));
       const std::size_t bin = std::size_t(std::clamp((value - least_hu_) * bins_per_hu_, 0.0f, kBins - 1.0f));
       h.count[bin] += 1;
@@ -142,7 +147,8 @@ private:
   const AcousticVolume& volume_;
   glm::dmat4 index_from_patient_;
   float least_hu_ = 0, bins_per_hu_ = 1;
-  std::vector<Counted> counted_;
+  std::vector<Counted> counted_;           // image after image
+  std::vector<std::size_t> image_begins_;  // in them, and behind the last
 };
 
 }  // namespace

@@ -7,11 +7,11 @@
 namespace insonate {
 
 SweepWindow::SweepWindow(const Probe& probe, double depth_mm) : probe_(probe), depth_mm_(depth_mm) {
-  points_ = target_points({Probe(probe), depth_mm, std::vector<SweepImage>(1)});
+  fan_moments_ = moments_of(target_points({Probe(probe), depth_mm, std::vector<SweepImage>(1)}));
 }
 
 double SweepWindow::apart_mm(const Pose& a, const Pose& b) const {
-  return target_error_mm(points_, a.matrix(), b.matrix());
+  return target_error_mm(fan_moments_, a.matrix(), b.matrix());
 }
 
 void SweepWindow::add(SweepImage image) {

@@ -36,8 +36,8 @@ private:
 
   Probe probe_;
   double depth_mm_;
-  std::vector<glm::dvec3> points_;  // of a fan, in the probe's frame
-  std::deque<SweepImage> kept_;     // the oldest first
+  glm::dmat4 fan_moments_{0.0};  // of a fan's points, in the probe's frame
+  std::deque<SweepImage> kept_;  // the oldest first
   std::uint64_t version_ = 0;
 };
 

@@ -1,7 +1,7 @@
 #include "sim/registration/tracked_sweep.h"
 
 #include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <tbb/parallel_for.h>
 
@@ -30,7 +30,7 @@ std::vector<glm::dvec3> target_points(const TrackedSweep& sweep) {
 }
 
 double spread_mm(const TrackedSweep& sweep) {
-  const std::vector<glm::dvec3> fan = target_points({Probe(sweep.probe), sweep.depth_mm, std::vector<SweepImage>(1)});
+  const glm::dmat4 fan = moments_of(target_points({Probe(sweep.probe), sweep.depth_mm, std::vector<SweepImage>(1)}));
   double most = 0;
   for (const SweepImage& a : sweep.images)
     for (const SweepImage& b : sweep.images)
@@ -39,12 +39,20 @@ double spread_mm(const TrackedSweep& sweep) {
 }
 
 double target_error_mm(const std::vector<glm::dvec3>& points, const glm::dmat4& one, const glm::dmat4& other) {
-  double squares = 0;
-  for (const glm::dvec3& point : points) {
-    const glm::dvec4 apart = (one - other) * glm::dvec4(point, 1);
-    squares += glm::dot(apart, apart);
-  }
-  return points.empty() ? 0 : std::sqrt(squares / double(points.size()));
+  return target_error_mm(moments_of(points), one, other);
+}
+
+glm::dmat4 moments_of(const std::vector<glm::dvec3>& points) {
+  glm::dmat4 sum(0.0);
+  for (const glm::dvec3& point : points) sum += glm::outerProduct(glm::dvec4(point, 1), glm::dvec4(point, 1));
+  return points.empty() ? sum : sum / double(points.size());
+}
+
+double target_error_mm(const glm::dmat4& moments, const glm::dmat4& one, const glm::dmat4& other) {
+  const glm::dmat4 apart = one - other, products = apart * moments;
+  double mean = 0;  // the trace of apart * moments * apart^T
+  for (int i = 0; i < 4; ++i) mean += glm::dot(products[i], apart[i]);
+  return std::sqrt(std::max(mean, 0.0));
 }
 
 Image<float> resampled(const Image<float>& image, const glm::dmat3& pixel_from_plane, const ImageGeometry& geometry) {

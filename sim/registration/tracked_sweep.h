@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include <vector>
@@ -35,6 +36,11 @@ double spread_mm(const TrackedSweep& sweep);
 /// Returns the root mean square distance, mm, between what two maps make of points: the target registration error if
 /// one of them is the truth and the points are target_points().
 double target_error_mm(const std::vector<glm::dvec3>& points, const glm::dmat4& one, const glm::dmat4& other);
+
+/// Returns the mean of p p^T over points p = (x, y, z, 1), mm: all that their root mean square distance depends on.
+glm::dmat4 moments_of(const std::vector<glm::dvec3>& points);
+/// Returns the same from moments_of() the points, however many they are.
+double target_error_mm(const glm::dmat4& moments, const glm::dmat4& one, const glm::dmat4& other);
 
 /// Returns an image on another geometry: the mean of the known pixels around each place, weighted by a Gaussian as wide
 /// as the coarser of both pixels. NaN where fewer than half of the weights lie on known pixels.

@@ -132,6 +132,7 @@ struct WeinSimulator::State {
   std::span<const glm::vec3> bends;  // of the call; empty: lines are straight
 
   std::vector<glm::dmat4> drawn, compared;  // of the last calls
+  ImageRange compared_with;                 // ultrasound images, by the last call
   std::vector<float> similar;               // for `compared`
 
   Buffer samples_traversed{sizeof(GLuint), nullptr};  // by the last call
@@ -189,7 +190,6 @@ WeinSimulator::State::State(const AcousticVolume& volume, const Probe& probe, do
     }
 
   parameters.columns = 1;
-  parameters.ultrasounds = 1;
   pixel_places = places_in_scan(fan, lines, row_samples);
   fan_pixels = picture_pixels(pixel_places, wanted.image_width, wanted.image_height, group);
 }
@@ -344,7 +344,6 @@ void WeinSimulator::set_ultrasound(std::span<const Image<float>> images) {
     s.ultrasound = ComparedPixels();
   else
     s.ultrasound = compared_pixels(s.pixel_places, images, s.settings.similarity_patch, s.group);
-  s.parameters.ultrasounds = std::max(int(images.size()), 1);
   if (s.ultrasound.table)
     s.sums = Texture::make_2d(GL_RGBA32F, 3 * int(s.ultrasound.table.columns), int(s.chunk_images), Filter::nearest);
 }
@@ -353,17 +352,21 @@ const std::vector<double>& WeinSimulator::ultrasound_variation() const {
   return state_->ultrasound.variation;
 }
 
-std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe) {
+std::vector<float> WeinSimulator::similarity(std::span<const Pose> patient_from_probe, ImageRange used) {
   check_poses(patient_from_probe);
-  return similarity(std::span<const glm::dmat4>(matrices_of(patient_from_probe)));
+  return similarity(std::span<const glm::dmat4>(matrices_of(patient_from_probe)), used);
 }
 
-std::vector<float> WeinSimulator::similarity(std::span<const glm::dmat4> patient_from_probe) {
+std::vector<float> WeinSimulator::similarity(std::span<const glm::dmat4> patient_from_probe, ImageRange used) {
   check_places(patient_from_probe);
   State& s = *state_;
   std::vector<float> result(patient_from_probe.size());
   if (result.empty() || !s.ultrasound.table) return result;
-  if (std::ranges::equal(patient_from_probe, s.compared)) return s.similar;
+  used = used.within(s.ultrasound.variation.size());
+  if (used.count == 0) return result;
+  if (used == s.compared_with && std::ranges::equal(patient_from_probe, s.compared)) return s.similar;
+  s.parameters.first_ultrasound = int(used.first);
+  s.parameters.ultrasounds = int(used.count);
   const std::size_t bytes = result.size() * sizeof(float);
   if (s.similarities_held < result.size()) {
     s.similarities = Buffer(bytes, nullptr);
@@ -382,6 +385,7 @@ std::vector<float> WeinSimulator::similarity(std::span<const glm::dmat4> patient
   s.similarities.read(result.data(), bytes);
   s.ran(WeinStage::compare, result.size(), s.ultrasound.table.pixels);
   s.compared.assign(patient_from_probe.begin(), patient_from_probe.end());
+  s.compared_with = used;
   s.similar = result;
   return result;
 }
@@ -434,6 +438,8 @@ std::vector<float> WeinSimulator::patch_similarity(std::span<const glm::dmat4> p
     bent.shares_held = count;
   }
   const ScanStages& stages = s.stages_for(patient_from_probe.size());
+  s.parameters.first_ultrasound = 0;
+  s.parameters.ultrasounds = int(s.ultrasound.variation.size());
   s.bends = bends;
   s.by_chunks(patient_from_probe, stages, &stages == &s.alone ? bent.alone : *bent.interleaved, stages.term_scan,
               [&](int images) {

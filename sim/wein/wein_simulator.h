@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/core/image.h"
+#include "sim/core/image_range.h"
 #include "sim/core/pose.h"
 #include "sim/gl/objects.h"
 #include "sim/gl/program.h"
@@ -69,9 +70,10 @@ public:
   /// defines it, with patches if the settings ask for them. With n ultrasound images, pose i is compared with image
   /// i modulo n, so that one call can evaluate a sweep at many places. The simulated images stay on the device; one
   /// number per image is read back. Returns 0 without an ultrasound image. Blocks until the device has finished.
-  std::vector<float> similarity(std::span<const Pose> patient_from_probe);
+  /// @param used  only these ultrasound images count, as if there were no others
+  std::vector<float> similarity(std::span<const Pose> patient_from_probe, ImageRange used = {});
   /// The same for affine maps, as simulate() takes them.
-  std::vector<float> similarity(std::span<const glm::dmat4> patient_from_probe);
+  std::vector<float> similarity(std::span<const glm::dmat4> patient_from_probe, ImageRange used = {});
 
   /// Returns the points at which a deformation of the patient may bend scan lines, in the probe's frame, mm. Between
   /// them, displacements are linear along the lines and from line to line. The points are about 32 by 32, at least 2

@@ -56,19 +56,24 @@ TEST_CASE("LC2 of a sweep is the mean over its images, weighted by their variati
     REQUIRE(found.size() == places.size());
     gl::WeinSimulator single(body, sweep.probe, kDepth_mm, settings);
     for (std::size_t p = 0; p < places.size(); ++p) {
-      double sum = 0, weights = 0;
+      double sum = 0, weights = 0, of_second = 0;
       for (const SweepImage& image : sweep.images) {
         single.set_ultrasound(image.grey);
         const glm::dmat4 place = places[p] * image.sweep_from_probe.matrix();
         const double weight = single.ultrasound_variation().front();
-        sum += weight * single.similarity(std::span<const glm::dmat4>(&place, 1)).front();
+        const double similar = single.similarity(std::span<const glm::dmat4>(&place, 1)).front();
+        sum += weight * similar;
         weights += weight;
+        if (&image == &sweep.images[1]) of_second = similar;
       }
       INFO("patch " << patch << ", place " << p);
       CHECK(found[p] > 0.01);
       // One image and many in a call differ by the rounding of single precision.
       CHECK(found[p] == Approx(sum / weights).margin(2e-5));
       CHECK(similarity->at({&places[p], 1}).front() == Approx(found[p]).margin(2e-5));
+      CHECK(std::abs(of_second - found[p]) > 4e-5);  // twice the margin: neither passes for the other
+      CHECK(similarity->at({&places[p], 1}, {1, 1}).front() == Approx(of_second).margin(2e-5));
+      CHECK(similarity->at({&places[p], 1}, {0, 99}).front() == Approx(found[p]).margin(2e-5));
     }
   }
 }
@@ -116,6 +121,12 @@ TEST_CASE("the baselines are perfect where the ultrasound is a function of the C
       noise.images[0].grey.pixels[i] = unit_float(hash(std::uint32_t(i)));
     const double none = measure == Measure::mutual_information ? 1 : 0;
     CHECK(slice_similarity(measure, volume, noise, WeinSettings{})->at(places).front() == Approx(none).margin(0.05));
+    TrackedSweep both = sweep;
+    both.images.push_back(noise.images[0]);
+    const auto of_both = slice_similarity(measure, volume, both, WeinSettings{});
+    CHECK(of_both->at(places, {0, 1}) == found);
+    CHECK(of_both->at(places, {1, 1}).front() == Approx(none).margin(0.05));
+    CHECK(of_both->at(places).front() < perfect - 0.2);
   }
 }
 

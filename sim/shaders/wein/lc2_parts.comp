@@ -3,7 +3,7 @@
 // squares minus squares of sums would cancel to nothing for a flat image.
 //
 // Reads the scan, the table of pixels and the ultrasound images' values. Simulated image i of a call belongs to
-// ultrasound image i modulo their number. Writes three texels per part and image.
+// ultrasound image first_ultrasound + i modulo `ultrasounds`. Writes three texels per part and image.
 // Dispatch: parts x groups of images invocations, in work groups of GROUP x 1. An invocation sums one part of all
 // images that share the scan's texels.
 
@@ -29,7 +29,8 @@ void main() {
   int values_at[interleaved_terms];
   for (int j = 0; j < interleaved_terms; ++j) {
     of[j] = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-    values_at[j] = (first + group * interleaved_terms + j) % ultrasounds * entries + column;
+    int of_ultrasound = first_ultrasound + (first + group * interleaved_terms + j) % ultrasounds;
+    values_at[j] = of_ultrasound * entries + column;
   }
   for (int i = 0; i < length; ++i) {
     ivec4 pixel = pixel_at(i);

@@ -9,7 +9,9 @@ layout(std140, binding = 0) uniform WeinParameters {
   int images;   // in this chunk
   int first;    // index of the chunk's first image among all
   int columns;  // of images in the grid
-  int ultrasounds;  // images that the simulated ones are compared with, one after the other; 1 or more
+  int ultrasounds;       // images that the simulated ones are compared with, one after the other; 1 or more
+  int first_ultrasound;  // of them, among all that are set
+  int unused_1, unused_2, unused_3;
 #ifdef __cplusplus
 };
 }  // namespace insonate::gl
