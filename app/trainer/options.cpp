@@ -96,7 +96,8 @@ CLI::Option* add_headless(CLI::App& mode, Options& options) {
 
 void add_screen(CLI::App& mode, Options& options) {
   mode.add_option("--seconds", options.seconds, "End the session after this many seconds")
-      ->check(CLI::Range(0.0, 86400.0));
+      ->check(CLI::Range(0.0, 86400.0))
+      ->default_str("without a window: at the end of the exam, or after 10 if there is none");
   mode.add_option("--out", options.out, "Write the report, the score and the pictures to this folder")
       ->each([&](const std::string&) { options.out_named = true; })
       ->type_name("FOLDER")

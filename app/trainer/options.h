@@ -59,7 +59,7 @@ struct Options {
   // The screen
   bool headless = false;
   std::filesystem::path screenshot;  ///< a PNG of the whole screen, written at the end; empty: none
-  double seconds = 0;                ///< end after so many seconds; 0: at the exam's end (headless), never (window)
+  double seconds = 0;  ///< end after so many seconds; 0: at the exam's end, or after 10 (headless); never (window)
   std::string quality = name_of(Quality::balanced);  ///< of the ultrasound: one of quality_names()
   bool quality_named = false;                        ///< as out_named
   std::filesystem::path shader_folder;

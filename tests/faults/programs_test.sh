@@ -97,7 +97,7 @@ for bytes in 0 100 3000; do
   says 2 "it cannot be written\|disk does not read or write\|disk is full" limited $bytes "$bin/insonate-score" export "$work/lab.db" --out "$work/tables"
   [ ! -e "$work/tables" ] || fail "a part of the tables is there, at $bytes bytes"
   says 2 "lab.db" limited $bytes "$bin/insonate-score" comment "$work/lab.db" --attempt 1 --text "Slow down"
-  says 2 "cannot be written" limited $bytes "${phantom[@]}" "$work/ball"
+  says 2 "cannot be written" limited $bytes "${phantom[@]}" --replace "$work/ball"
   says 2 "cannot be written" limited $bytes "${import[@]}" --out "$work/patient" --replace
   says 2 "case.toml: it cannot be written" limited $((bytes / 10)) "${add_view[@]}"
   says 2 "lab.db" limited $bytes "${score[@]}" --results "$work/lab.db"
@@ -159,7 +159,7 @@ if mount -t tmpfs -o size=600k none "$disk" 2>/dev/null; then
   sum_of "$disk" >"$work/before"
   says 2 "No space left on device" "${score[@]}" --report "$disk/report.html"
   says 2 "lab.db: the disk is full" "${score[@]}" --results "$disk/lab.db"
-  says 2 "cannot be written" "${phantom[@]}" "$disk/ball"
+  says 2 "cannot be written" "${phantom[@]}" --replace "$disk/ball"
   says 2 "cannot be written" "${import[@]}" --out "$disk/patient"
   says 2 "set/shards/00000.h5: it cannot be written" "${dataset[@]}" make "$study" "$disk/set"
   says 2 "cannot be written" "${dataset[@]}" image "$study" 1 "$disk/image"

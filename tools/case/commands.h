@@ -17,9 +17,10 @@ namespace insonate {
 void inspect(const std::filesystem::path& path, bool json);
 
 /// Builds a phantom and writes it as a case.
-/// @param recipe  the recipe of the built-in abdomen if empty
+/// @param recipe   the recipe of the built-in abdomen if empty
+/// @param replace  write over a case that is there already
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
-                    const std::filesystem::path& folder);
+                    const std::filesystem::path& folder, bool replace);
 
 /// Imports a patient and writes the case.
 /// @param replace  overwrites an existing case in the folder, including an expert's additions

@@ -33,6 +33,7 @@ void add_phantom(CLI::App& program, Run& run) {
   struct Given {
     std::string recipe, folder;
     std::vector<std::string> settings;
+    bool replace = false;
   };
   const auto given = std::make_shared<Given>();
   CLI::App* command = program.add_subcommand("phantom", "Make a phantom from a recipe and write it as a case");
@@ -44,8 +45,11 @@ void add_phantom(CLI::App& program, Run& run) {
       ->take_all()
       ->expected(1);
   command->add_option("FOLDER", given->folder, "Write the case to this folder")->type_name("FOLDER")->required();
-  command->callback(
-      [given, &run] { run = [given] { make_and_write(given->recipe, given->settings, given->folder); }; });
+  command->add_flag("--replace", given->replace,
+                    "Replace the case in that folder, including the views that were added to it");
+  command->callback([given, &run] {
+    run = [given] { make_and_write(given->recipe, given->settings, given->folder, given->replace); };
+  });
 }
 
 void add_import(CLI::App& program, Run& run) {

@@ -73,12 +73,20 @@ Pose pose_in_log(const RecordedMoment& moment) {
   return nearest->patient_from_probe;
 }
 
+// Checked before the work, which takes a minute.
+void check_destination(const std::filesystem::path& folder, bool replace) {
+  check_case_can_be_written(folder);
+  if (!replace && std::filesystem::exists(folder / "case.toml"))
+    throw InputError(folder.string(), "", "there is a case already, with the views that were added to it",
+                     "name another folder, or give --replace to write over it");
+}
+
 }  // namespace
 
 void make_and_write(std::filesystem::path recipe, const std::vector<std::string>& settings,
-                    const std::filesystem::path& folder) {
+                    const std::filesystem::path& folder, bool replace) {
   constexpr std::size_t kLongestRecipe = std::size_t(16) << 20;
-  check_case_can_be_written(folder);  // checked before the work, which takes a minute
+  check_destination(folder, replace);
   if (recipe.empty()) recipe = assets_folder() / "phantoms" / "abdomen.toml";
   Case subject;
   {
@@ -90,10 +98,7 @@ void make_and_write(std::filesystem::path recipe, const std::vector<std::string>
 }
 
 void import_and_write(ImportRequest request, const std::filesystem::path& folder, bool replace) {
-  check_case_can_be_written(folder);
-  if (!replace && std::filesystem::exists(folder / "case.toml"))
-    throw InputError(folder.string(), "", "there is a case already, with the views that were added to it",
-                     "name another folder, or give --replace to write over it");
+  check_destination(folder, replace);
   if (request.name.empty()) request.name = std::filesystem::absolute(folder / "").parent_path().filename().string();
   const TissueTable tissues = read_tissue_table(assets_folder() / "tissues.toml");
   ImportedCase imported;

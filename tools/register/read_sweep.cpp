@@ -15,6 +15,7 @@
 #include "devices/replay/read_log.h"
 #include "devices/sequence/recorded_images.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/files/toml_table.h"
 #include "sim/tissue/acoustic_volume.h"
@@ -140,9 +141,14 @@ FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel,
   check_mask(echo, input);
   for (std::size_t i = 0; input.mask && i < echo.pixels.size(); ++i)
     if (input.mask->pixels[i] == 0) echo.pixels[i] = 0;
-  const FanSearch search = find_fan(echo, pixel_size(probe_from_pixel));
+  const glm::dvec2 mm = pixel_size(probe_from_pixel);
+  const FanSearch search = find_fan(echo, mm);
   if (!search.fan)
-    throw InputError(input.file, "", search.problem, "name the probe with --probe and --depth, or with --probe-file");
+    throw InputError(
+        input.file, "", search.problem,
+        formatted("name the probe with --probe and --depth, or with --probe-file; if a pixel is not %.3g x "
+                  "%.3g mm large, correct ImageToProbe",
+                  mm.x, mm.y));
   input.probe = search.fan->probe;
   input.depth_mm = search.fan->depth_mm;
   if (!input.face_pixel) input.face_pixel = search.fan->face_pixel;

@@ -430,7 +430,9 @@ TEST_CASE("without a probe, it is found from the fan in the images") {
       "scan.igs.mha: frame 2: its pixels have another size; record each depth on its own, and register one of them.");
   record(0, kPixel_mm);
   recorded.refused(
-      "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth");
+      "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth, "
+      "or "
+      "with --probe-file; if a pixel is not 1.5 x 1.5 mm large, correct ImageToProbe.");
 }
 
 TEST_CASE("the fan of a real scanner's image is found, and real images without a fan are refused") {
