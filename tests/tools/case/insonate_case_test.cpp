@@ -25,7 +25,7 @@ TEST_CASE("insonate-case phantom makes the recipe's case and says how far it is"
   const auto inside = std::count(ball.labels.voxels.begin(), ball.labels.voxels.end(), 1);
   CHECK(double(inside) == Approx(4 / 3.0 * 3.1416 * 7 * 7 * 3).epsilon(0.1));  // six voxels across: edges count
 
-  // An older case gives way only if it is told to.
+  // An older case gives way to --replace alone.
   place.refused("phantom --recipe " + place.recipe.string() + " " + place.made.string(),
                 {place.made.string(), "there is a case already", "--replace"});
   CHECK(read_case(place.made).labels.voxels == ball.labels.voxels);
