@@ -8,6 +8,7 @@
 #include "devices/live/probe_buttons.h"
 #include "devices/pose_history.h"
 #include "sim/core/button_presses.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
@@ -69,10 +70,6 @@ void follow_path(const std::vector<ProbeSample>& samples, LogReport& report) {
     if ((mm > kJumpMin_mm && mm / s > kJumpMmPerS) || (deg > kJumpMin_deg && deg / s > kJumpDegPerS))
       report.jumps.push_back({i, b.time_s, mm, deg});
   }
-}
-
-std::string count_of(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 std::string milliseconds(double seconds) {

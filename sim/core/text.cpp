@@ -44,6 +44,10 @@ std::string formatted(const char* format, ...) {
   return text;
 }
 
+std::string count_of(std::size_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string number_text(double value) {
   return formatted("%g", value);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ std::string number_text(double value);
 
 /// Returns a number with the fewest digits that restore it: "0.1", "100000". Whole numbers below 1e15 have no exponent.
 std::string exact_text(double number);
+
+/// Returns a count with its noun: "1 shard", "2 shards".
+std::string count_of(std::size_t count, const char* noun);
 
 /// Returns the names of things that have one, in their order.
 template <typename Named>

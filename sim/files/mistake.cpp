@@ -8,11 +8,11 @@ namespace {
 
 constexpr std::size_t kMaxListed = 100;
 
+}  // namespace
+
 std::string in_words(const SourcePlace& place) {
   return place.line > 0 ? "line " + std::to_string(place.line) + ", column " + std::to_string(place.column) : "";
 }
-
-}  // namespace
 
 std::vector<Mistake> in_order_of_file(std::vector<Mistake> mistakes) {
   const auto at = [](const Mistake& mistake) { return std::pair(mistake.place.line, mistake.place.column); };

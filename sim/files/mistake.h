@@ -13,6 +13,9 @@ struct SourcePlace {
   int column = 0;
 };
 
+/// Returns the place for an error sentence: "line 3, column 7"; empty if there is none.
+std::string in_words(const SourcePlace& place);
+
 /// A mistake in a file that a person wrote.
 struct Mistake {
   SourcePlace place;

@@ -427,6 +427,11 @@ std::optional<NumberRange> TomlTable::interval(std::string_view key, const Numbe
       report(key, in_quotes(key) + " goes beyond its limits", "write two numbers" + from_to(range));
       return std::nullopt;
     }
+    if (least && most && *least > *most) {
+      report(key, in_quotes(key) + " begins with its larger number",
+             "write [" + exact_text(*most) + ", " + exact_text(*least) + "]");
+      return std::nullopt;
+    }
   }
   report(key, in_quotes(key) + " is not a range",
          "write the least and the most in square brackets" + (is_unbounded(range) ? "" : "," + from_to(range)));

@@ -215,7 +215,7 @@ TEST_CASE("a key that is missing, of another kind or out of range is a mistake i
        [](T t) {
          t.interval("a", {0, 5});
        },
-       "1:5 'a' is not a range; write the least and the most in square brackets, from 0 to 5"},
+       "1:5 'a' begins with its larger number; write [1, 3]"},
       {"a = [1, 6]",
        [](T t) {
          t.interval("a", {0, 5});

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/digest.h"
 #include "sim/files/files.h"
 #include "tools/cli/about.h"
@@ -108,6 +109,9 @@ bool is_complete_manifest(const Json& json) {
 }
 
 Json read_manifest(const fs::path& file) {
+  if (std::error_code error; !fs::exists(file, error))
+    throw InputError(file.parent_path().string(), "", "it is not the folder of a dataset: manifest.json is missing",
+                     "begin one with insonate-dataset plan, or check the name");
   const std::string text = read_file(file, kLargestManifest);
   const char* const remedy = "name the folder of a dataset, or make it anew";
   try {
@@ -134,6 +138,10 @@ DatasetTissues dataset_tissues() {
 void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& patients) const {
   if (!has_begun()) {
     std::error_code error;
+    for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
+      if (const std::string name = entry->path().filename().string(); name != "shards" && !name.starts_with("."))
+        throw InputError(path_.string(), "", "the folder holds other files, such as " + in_quotes(name),
+                         "name a new folder");
     fs::create_directories(path_ / "shards", error);
     if (error)
       throw InputError(path_.string(), "", "the folder cannot be made (" + error.message() + ")",

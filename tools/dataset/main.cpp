@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/files/new_folder.h"
 #include "sim/files/png.h"
@@ -32,10 +33,14 @@ int plan(const std::string& study_file, const std::string& path) {
   const std::vector<StudyPatient> patients = patients_of(study);
   check_patients(study, patients);
   DatasetFolder(path).begin(study, patients);
-  std::printf("%u images in %u shards; patients: %zu\n", study.images, study.shards(), patients.size());
-  for (const StudyPatient& patient : patients)
-    std::printf("  shards %u-%u: %s\n", patient.first_shard, patient.first_shard + patient.shards - 1,
+  std::printf("%s in %s of %s\n", count_of(study.images, "image").c_str(), count_of(study.shards(), "shard").c_str(),
+              count_of(patients.size(), "patient").c_str());
+  for (const StudyPatient& patient : patients) {
+    std::vector<std::uint32_t> shards(patient.shards);
+    std::iota(shards.begin(), shards.end(), patient.first_shard);
+    std::printf("  %s %s: %s\n", patient.shards == 1 ? "shard" : "shards", shard_list(shards).c_str(),
                 patient.name.c_str());
+  }
   return 0;
 }
 
@@ -48,8 +53,8 @@ int make(const std::string& study_file, const std::string& path, const std::stri
   const std::vector<std::uint32_t> all = read_shard_list("--shards", listed, study.shards());
   begin(study, patients, folder);
   make_shards(study, patients, folder, part_of(all, rank), [&](const MadeShard& made) {
-    std::printf("shard %u: %u images of %s, %.0f per hour\n", made.shard, made.images, made.patient.c_str(),
-                3600 * made.images / made.seconds);
+    std::printf("shard %u: %s of %s, %.0f per hour\n", made.shard, count_of(made.images, "image").c_str(),
+                made.patient.c_str(), 3600 * made.images / made.seconds);
     std::fflush(stdout);
   });
   if (folder.missing().empty()) folder.complete();
@@ -122,7 +127,7 @@ int merge(const std::string& path, const std::vector<std::string>& others) {
   folder.shards();  // refuses a folder that is none, before anything is moved
   for (const std::string& other : others) {
     const DatasetFolder from(other);
-    std::printf("%s: %u shards moved", other.c_str(), folder.take_shards_of(from));
+    std::printf("%s: %s moved", other.c_str(), count_of(folder.take_shards_of(from), "shard").c_str());
     if (const std::size_t left = from.shards() - from.missing().size(); left > 0)
       std::printf(", %zu left there, which %s has already", left, path.c_str());
     std::printf("\n");

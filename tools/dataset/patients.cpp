@@ -16,10 +16,6 @@ namespace {
 /// Keeps the draws of patients apart from those of images.
 constexpr std::uint32_t kPatientDraws = 0x70617469u;
 
-std::filesystem::path recipe_file() {
-  return assets_folder() / "phantoms" / "abdomen.toml";
-}
-
 std::string draw_option(const PhantomOption& option, const Draws& draws) {
   if (!option.range) return option.choices[draws.below(std::uint32_t(option.choices.size()), option.name)];
   constexpr double kPerUnit = 100;  // two decimals are finer than any voxel
@@ -27,29 +23,9 @@ std::string draw_option(const PhantomOption& option, const Draws& draws) {
   return exact_text(std::clamp(drawn, option.range->least, option.range->most));
 }
 
-/// Refuses options that the recipe does not have, and values that it does not take, at both ends of each range.
-void check_options(const Study& study) {
-  const std::filesystem::path recipe = recipe_file();
-  std::vector<Mistake> mistakes;
-  for (const StudyCase& subject : study.cases) {
-    if (subject.options.empty()) continue;
-    std::vector<std::pair<std::string, std::string>> given;
-    for (const PhantomOption& option : subject.options) {
-      std::vector<std::string> values = option.choices;
-      if (option.range) values = {exact_text(option.range->least), exact_text(option.range->most)};
-      for (const std::string& value : values) given.emplace_back(option.name, value);
-    }
-    for (const OptionProblem& wrong : problems_with_options(recipe.string(), read_file(recipe), given))
-      mistakes.push_back(
-          {subject.place, "the phantom's option " + in_quotes(wrong.option) + ": " + wrong.problem, wrong.remedy});
-  }
-  if (!mistakes.empty()) throw input_error(study.file.string(), std::move(mistakes));
-}
-
 }  // namespace
 
 std::vector<StudyPatient> patients_of(const Study& study) {
-  check_options(study);
   double all_weights = 0;
   for (const StudyCase& subject : study.cases) all_weights += subject.weight;
   std::vector<StudyPatient> patients;
@@ -93,7 +69,8 @@ Case open_patient(const Study& study, const StudyPatient& patient, const Progres
   if (patient.of->source != kBuiltIn) return open_case(patient.of->source);
   std::size_t in_study = 0;
   for (const StudyCase& subject : study.cases) in_study += subject.patients;
-  return cached_phantom(recipe_file(), patient.options, cache_folder(), progress, std::max(kKeptPhantoms, in_study));
+  return cached_phantom(built_in_recipe(), patient.options, cache_folder(), progress,
+                        std::max(kKeptPhantoms, in_study));
 }
 
 }  // namespace insonate

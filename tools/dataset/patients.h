@@ -22,8 +22,7 @@ struct StudyPatient {
 };
 
 /// Returns all patients of a study, whose shards follow each other. Each case has its share of shards by weight. The
-/// study must outlive them. Throws InputError if there are fewer shards than patients, or if the built-in patient's
-/// recipe does not have an option or refuses its value.
+/// study must outlive them. Throws InputError if there are fewer shards than patients.
 std::vector<StudyPatient> patients_of(const Study& study);
 
 /// Returns the patient of a shard.

@@ -110,7 +110,12 @@ void ShotMaker::add_log(Way& way) const {
   RecordingOptions options;
   options.transform = poses.transform;
   options.without_times = true;
-  const std::vector<ProbeSample> samples = read_recorded_scan(poses.log, options).samples;
+  std::vector<ProbeSample> samples;
+  try {
+    samples = read_recorded_scan(poses.log, options).samples;
+  } catch (const InputError& error) {
+    throw InputError(study_->file.string() + ": " + in_words(poses.log_place) + ": " + error.what());
+  }
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (samples[i].status == PoseStatus::ok)
       way.starts.push_back({"log " + poses.log.filename().string() + ", sample " + std::to_string(i),

@@ -50,6 +50,8 @@ struct StudyCase {
   SourcePlace place;
 };
 inline constexpr std::string_view kBuiltIn = "abdomen";
+/// Returns the file of the built-in patient's recipe.
+std::filesystem::path built_in_recipe();
 
 /// [[probe]]
 struct StudyProbe {
@@ -113,8 +115,8 @@ struct Study {
 };
 
 /// Reads a study (docs/datasets.md describes its keys). Throws one InputError that names every unknown key, wrong type,
-/// value out of range and name that refers to nothing, with line and column. Does not look into the patients: see
-/// ShotMaker.
+/// value out of range, name that refers to nothing, and option that the built-in patient's recipe does not accept, with
+/// line and column. Does not look into the patients: see ShotMaker.
 Study read_study(const std::filesystem::path& toml_file);
 
 }  // namespace insonate

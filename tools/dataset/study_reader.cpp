@@ -6,6 +6,7 @@
 #include "sim/core/text.h"
 #include "sim/files/digest.h"
 #include "sim/files/files.h"
+#include "sim/phantom/phantom.h"
 #include "tools/dataset/setting_ranges.h"
 #include "tools/dataset/study.h"
 
@@ -52,6 +53,17 @@ PhantomOption read_phantom_option(const TomlTable& table, const std::string& nam
   return option;
 }
 
+/// Reports an option that the recipe does not have, and values that it does not take, at both ends of a range.
+void check_phantom_option(const TomlTable& options, const PhantomOption& option) {
+  std::vector<std::string> values = option.choices;
+  if (option.range) values = {exact_text(option.range->least), exact_text(option.range->most)};
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const std::string& value : values) given.emplace_back(option.name, value);
+  const std::string recipe = built_in_recipe().string();
+  for (const OptionProblem& wrong : problems_with_options(recipe, read_file(recipe), given))
+    options.report(option.name, in_quotes(wrong.option) + ": " + wrong.problem, wrong.remedy);
+}
+
 StudyCase read_case_of_study(const TomlTable& table, const std::filesystem::path& folder) {
   StudyCase subject;
   const std::string source = table.text("case", std::string(kBuiltIn));
@@ -75,7 +87,10 @@ StudyCase read_case_of_study(const TomlTable& table, const std::filesystem::path
     const TomlTable options = table.table("phantom");
     if (!built_in)
       table.report("phantom", "only the built-in patient has options", "remove them, or take case = \"abdomen\"");
-    for (const std::string& name : options.keys()) subject.options.push_back(read_phantom_option(options, name));
+    for (const std::string& name : options.keys()) {
+      subject.options.push_back(read_phantom_option(options, name));
+      if (built_in) check_phantom_option(options, subject.options.back());
+    }
   }
   const bool varies = std::any_of(subject.options.begin(), subject.options.end(), [](const PhantomOption& option) {
     return option.range || option.choices.size() > 1;
@@ -128,6 +143,9 @@ StudyPoses read_poses_of_study(const TomlTable& table, const std::filesystem::pa
     const std::string log = table.text("file");
     poses.log_place = table.place("file");
     poses.log = folder / log;
+    if (std::error_code error; !log.empty() && !std::filesystem::exists(poses.log, error))
+      table.report("file", "the log " + in_quotes(log) + " is not there",
+                   "name a recording by its path from this file");
     poses.transform = table.text("transform", "");
   }
   return poses;
@@ -148,6 +166,10 @@ void check_unique(const TomlTable& table, const char* key, const std::string& na
 }
 
 }  // namespace
+
+std::filesystem::path built_in_recipe() {
+  return assets_folder() / "phantoms" / "abdomen.toml";
+}
 
 Study read_study(const std::filesystem::path& file) {
   Study study;

@@ -169,7 +169,7 @@ TEST_CASE("what is wrong in a step of any kind is said in words") {
           {"phantom = { gallstone = true }", "phantom = { gallstone = [1] }", {"not a single value"}},
           {"phantom = { gallstone = true }", "case = \"tiny\"\nphantom = { gallstone = true }", {"'tiny'"}},
           {"depth_mm = [90, 120]\nprobe = \"linear\"", "", {"step 1", "no setting is asked for"}},
-          {"depth_mm = [90, 120]", "depth_mm = [120, 90]", {"step 1", "not a range"}},
+          {"depth_mm = [90, 120]", "depth_mm = [120, 90]", {"step 1", "larger number; write [90, 120]"}},
           {"depth_mm = [90, 120]", "depth_mm = 100", {"not a range", "from 1 to 1000"}},
           {"depth_mm = [90, 120]", "depth_mm = [90, 120]\nview = \"ball\"", {"the key 'view' is unknown here"}},
           {"probe = \"linear\"", "probe = \"linaer\"", {"'linaer'", "did you mean 'linear'?"}},

@@ -90,9 +90,10 @@ TEST_CASE("what cannot be done ends in one sentence and code 2, and leaves nothi
       {"make other.toml set", "this folder holds the dataset of another study"},
       {"make study.toml set --shards 6", "--shards: there is no shard 6 of 6"},
       {"make study.toml study.toml/set", "study.toml/set: the folder cannot be made"},
-      {"status nowhere", "nowhere/manifest.json: there is no such file"},
-      {"merge nowhere set", "nowhere/manifest.json: there is no such file"},
-      {"check study.toml", "study.toml/manifest.json: there is no such file"},
+      {"status nowhere", "nowhere: it is not the folder of a dataset: manifest.json is missing; begin one"},
+      {"merge nowhere set", "nowhere: it is not the folder of a dataset: manifest.json is missing; begin one"},
+      {"check study.toml", "study.toml: it is not the folder of a dataset: manifest.json is missing"},
+      {"plan study.toml .", ": the folder holds other files, such as '"},
   };
   for (const auto& bad : cases) {
     const ProgramOutcome ran = work.run(bad.arguments);

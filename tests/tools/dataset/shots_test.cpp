@@ -177,7 +177,11 @@ TEST_CASE("poses that a patient does not have are refused, with place and remedy
        "line 12, column 9: the view 'hepatorenal' is held with the probe 'curvilinear', which the study does not list"},
       {kCase + linear + "[[poses]]\nkind = \"view\"\n",
        "line 11, column 8: the patient 'abdomen' has no view that is held with"},
-      {kCase + curved + "[[poses]]\nkind = \"log\"\nfile = \"nowhere.mha\"\n", "nowhere.mha: there is no such file"},
+      {kCase + curved +
+           "[[poses]]\nkind = \"log\"\nfile = \"" INSONATE_ASSETS_FOLDER
+           "/logs/ruq_good.igs.mha\"\ntransform = \"ToolToTracker\"\n",
+       "study.toml: line 12, column 8: " INSONATE_ASSETS_FOLDER
+       "/logs/ruq_good.igs.mha: no frame has the transform 'ToolToTracker'"},
       {std::string("[[case]]\nname = \"other\"\n") + kCase + curved +
            "[[poses]]\nkind = \"skin\"\ncases = [\"abdomen\"]\n",
        "no [[poses]] apply to the case 'other'"},
