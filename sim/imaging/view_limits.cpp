@@ -10,7 +10,7 @@ namespace {
 void check_within(const char* simulator, const char* what, double value, double least, double most) {
   if (value >= least && value <= most) return;  // false for NaN
   char text[160];
-  std::snprintf(text, sizeof text, "%s: %s is %g, not between %g and %g", simulator, what, value, least, most);
+  std::snprintf(text, sizeof text, "%s: %s is %g; give a number from %g to %g.", simulator, what, value, least, most);
   throw std::invalid_argument(text);
 }
 

@@ -34,8 +34,8 @@ std::optional<std::string> why_no_patch(const WeinSettings& settings) {
   const auto along = [&](int pixels) { return std::int64_t((pixels + patch - 1) / patch); };
   if (patch >= kMinPatch && along(settings.image_width) * along(settings.image_height) <= kMaxPatches)
     return std::nullopt;
-  return "'similarity_patch' is " + std::to_string(patch) + ", neither 0 nor 4 or more with at most " +
-         std::to_string(kMaxPatches) + " patches in the picture";
+  return "a patch is " + std::to_string(patch) + " pixels wide, neither 0 nor 4 or more with at most " +
+         std::to_string(kMaxPatches) + " of them in the picture";
 }
 
 std::optional<std::string> why_no_range(const WeinSettings& settings) {
@@ -55,7 +55,8 @@ WeinSettings read_wein_settings(const std::filesystem::path& toml_file) {
   document.throw_mistakes();
   if (const auto why = why_no_range(settings))
     root.fail(root.has("bright_hu") ? "bright_hu" : "dark_hu", *why, "move them apart");
-  if (const auto why = why_no_patch(settings)) root.fail("similarity_patch", *why, "make it larger");
+  if (const auto why = why_no_patch(settings))
+    root.fail("similarity_patch", "'similarity_patch': " + *why, "make it larger");
   return settings;
 }
 

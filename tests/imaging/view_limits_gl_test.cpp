@@ -89,12 +89,12 @@ TEST_CASE("probes and depths beyond their ranges are refused, and those before s
     CHECK(simulator.read_stages().grey.pixels == before);
   };
   const Probe good = test::small_probe("curvilinear");
-  refused(good, 0, "depth in mm is 0, not between 0.1 and 1000");
+  refused(good, 0, "depth in mm is 0; give a number from 0.1 to 1000.");
   refused(good, 1001, "depth in mm is 1001");
   refused(good, kNaN, "depth in mm is nan");
   Probe probe = good;
   probe.lines = 0;
-  refused(probe, 100, "number of scan lines is 0, not between 1 and 4096");
+  refused(probe, 100, "number of scan lines is 0; give a number from 1 to 4096.");
   probe = good;
   probe.radius_mm = kInfinite;
   refused(probe, 100, "radius in mm is inf");

@@ -266,7 +266,8 @@ TEST_CASE("model W's settings that cannot be used are refused with place and rea
       {"dark_hu = 149.5\n", "line 1, column 11", "'bright_hu' is 150, not 1 or more above 'dark_hu', which is 149.5"},
       {"dark_hu = 20\nbright_hu = 20\n", "line 2, column 13", "'bright_hu' is 20, not 1 or more above 'dark_hu'"},
       {"image_width = 0\nshadows = 1\n", "line 2", "'shadows' is neither true nor false"},
-      {"similarity_patch = 3\n", "line 1, column 20", "'similarity_patch' is 3, neither 0 nor 4 or more"},
+      {"similarity_patch = 3\n", "line 1, column 20",
+       "'similarity_patch': a patch is 3 pixels wide, neither 0 nor 4 or more"},
       {"similarity_patch = 4\nimage_width = 640\nimage_height = 480\n", "line 1, column 20", "at most 5376 patches"},
   };
   for (const auto& bad : cases) {

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "sim/core/input_error.h"
 #include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/phantom/phantom.h"
@@ -30,7 +31,7 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
     else if (py::isinstance<py::str>(value))
       options.emplace_back(name, value.cast<std::string>());
     else
-      options.emplace_back(name, exact_text(value.cast<double>()));
+      options.emplace_back(name, exact_text(number_of(value, "phantom", name)));
   }
   const py::gil_scoped_release without_lock;
   const std::filesystem::path recipe = assets_folder() / "phantoms" / "abdomen.toml";
@@ -38,6 +39,22 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
 }
 
 }  // namespace
+
+double number_of(const py::handle& given, const std::string& of, const std::string& name) {
+  try {
+    if (PyNumber_Check(given.ptr()) && !py::isinstance<py::array>(given))
+      return py::float_(py::reinterpret_borrow<py::object>(given)).cast<double>();
+  } catch (const py::error_already_set&) {
+  }
+  throw InputError(of, "", "'" + name + "' is " + std::string(py::repr(given)) + ", which is not a number",
+                   "give a number");
+}
+
+CasePtr case_of(const py::object& given) {
+  if (py::isinstance<HeldCase>(given)) return given.cast<std::shared_ptr<HeldCase>>();
+  throw py::type_error("the case is " + std::string(py::repr(given)) +
+                       ", not a Case; take one from open_case() or phantom()");
+}
 
 void bind_cases(py::module_& module) {
   py::class_<ReferenceView>(module, "View", doc("View"))

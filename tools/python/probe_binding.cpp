@@ -1,7 +1,10 @@
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "sim/core/input_error.h"
 #include "sim/core/suggest.h"
+#include "sim/core/text.h"
 #include "sim/imaging/view_limits.h"
 #include "tools/python/bindings.h"
 #include "tools/python/docs.h"
@@ -13,24 +16,31 @@ namespace py = pybind11;
 
 const std::vector<std::string> kKinds{"linear", "curvilinear", "phased"};
 
+int whole(double number, const std::string& name) {
+  constexpr double kMost = 1e6;  // what a probe may have is checked afterwards
+  if (number == std::trunc(number) && std::abs(number) <= kMost) return int(number);
+  throw InputError("Probe", "", "'" + name + "' is " + number_text(number) + ", which is not a count",
+                   "give a whole number");
+}
+
 Probe made(const std::string& like, const py::kwargs& changes) {
   Probe probe = probe_of(py::str(like));
   for (const auto& [key, value] : changes) {
     const std::string name = py::str(key);
     if (name == "radius_mm")
-      probe.radius_mm = value.cast<double>();
+      probe.radius_mm = number_of(value, "Probe", name);
     else if (name == "field_of_view_deg")
-      probe.field_of_view_deg = value.cast<double>();
+      probe.field_of_view_deg = number_of(value, "Probe", name);
     else if (name == "width_mm")
-      probe.width_mm = value.cast<double>();
+      probe.width_mm = number_of(value, "Probe", name);
     else if (name == "aperture_mm")
-      probe.aperture_mm = value.cast<double>();
+      probe.aperture_mm = number_of(value, "Probe", name);
     else if (name == "frequency_mhz")
-      probe.frequency_mhz = value.cast<double>();
+      probe.frequency_mhz = number_of(value, "Probe", name);
     else if (name == "depth_mm")
-      probe.depth_mm = value.cast<double>();
+      probe.depth_mm = number_of(value, "Probe", name);
     else if (name == "lines")
-      probe.lines = value.cast<int>();
+      probe.lines = whole(number_of(value, "Probe", name), name);
     else
       throw InputError("Probe", "", "a probe has no '" + name + "'",
                        suggest(name, {"radius_mm", "field_of_view_deg", "width_mm", "aperture_mm", "frequency_mhz",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "sim/core/input_error.h"
 #include "sim/imaging/upload.h"
@@ -45,11 +46,15 @@ public:
     }
     if (const auto why = why_not_valid(settings))
       throw InputError(settings_file ? settings_file->string() : "ultrasound", "", *why, "give another size or file");
-    if (std::any_of(ultrasound.data(), ultrasound.data() + ultrasound.size(),
-                    [](float each) { return std::isinf(each); }))
+    const std::span values(ultrasound.data(), std::size_t(ultrasound.size()));
+    if (std::ranges::any_of(values, [](float each) { return std::isinf(each); }))
       throw InputError("ultrasound", "", "it has infinite values", "replace them, or exclude them by NaN");
+    const auto first = std::ranges::find_if_not(values, [](float each) { return std::isnan(each); });
+    if (std::all_of(first, values.end(), [&](float each) { return std::isnan(each) || each == *first; }))
+      throw InputError("ultrasound", "", "its pixels have one grey level or none, so nothing can be compared",
+                       "give an image of tissue");
     Image<float> image(settings.image_width, settings.image_height);
-    std::copy(ultrasound.data(), ultrasound.data() + ultrasound.size(), image.pixels.begin());
+    std::ranges::copy(values, image.pixels.begin());
     const Case& patient = held->subject;
     AcousticVolume volume;
     {
@@ -77,12 +82,12 @@ private:
 
 void bind_similarity(py::module_& module) {
   py::class_<SimilarityBinding>(module, "ImageSimilarity", doc("ImageSimilarity"))
-      .def(py::init([](const std::shared_ptr<HeldCase>& held, const Floats& ultrasound, const py::object& probe,
+      .def(py::init([](const py::object& held, const Floats& ultrasound, const py::object& probe,
                        std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings,
                        std::optional<int> patch) {
-             return std::make_unique<SimilarityBinding>(held, ultrasound, probe, depth_mm, settings, patch);
+             return std::make_unique<SimilarityBinding>(case_of(held), ultrasound, probe, depth_mm, settings, patch);
            }),
-           py::arg("case").none(false), py::arg("ultrasound"), py::arg("probe"), py::arg("depth_mm") = py::none(),
+           py::arg("case"), py::arg("ultrasound"), py::arg("probe"), py::arg("depth_mm") = py::none(),
            py::arg("settings") = py::none(), py::arg("patch") = py::none(), doc("ImageSimilarity.__init__"))
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](SimilarityBinding& self, const py::args&) { self.close(); })

@@ -138,6 +138,7 @@ public:
                                          now.settings.image_width};
     if (!with_labels) return array_of(std::move(grey), shape);
     std::vector<std::uint8_t> label(grey.size()), visible(grey.size()), reach(grey.size());
+    std::vector<float> skin_mm;
     {
       const py::gil_scoped_release without_lock;
       const std::lock_guard alone(truth_mutex_);
@@ -147,6 +148,7 @@ public:
         keep(label, i, truth.label);
         keep(visible, i, truth.visible_label);
         keep(reach, i, truth.reach);
+        skin_mm.insert(skin_mm.end(), truth.skin_mm.begin(), truth.skin_mm.end());
       }
     }
     py::dict all;
@@ -154,6 +156,7 @@ public:
     all["label"] = array_of(std::move(label), shape);
     all["visible_label"] = array_of(std::move(visible), shape);
     all["reach"] = array_of(std::move(reach), shape);
+    all["skin_mm"] = array_of(std::move(skin_mm), {py::ssize_t(poses.size()), py::ssize_t(now.probe.lines)});
     return all;
   }
 
@@ -254,8 +257,8 @@ private:
 
 void bind_simulator(py::module_& module) {
   py::class_<SimulatorBinding>(module, "Simulator", doc("Simulator"))
-      .def(py::init([](const std::shared_ptr<HeldCase>& held) { return std::make_unique<SimulatorBinding>(held); }),
-           py::arg("case").none(false))
+      .def(py::init([](const py::object& held) { return std::make_unique<SimulatorBinding>(case_of(held)); }),
+           py::arg("case"))
       .def("__enter__", [](py::object self) { return self; })
       .def("__exit__", [](SimulatorBinding& self, const py::args&) { self.close(); })
       .def("close", &SimulatorBinding::close, doc("Simulator.close"))

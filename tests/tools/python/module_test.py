@@ -55,8 +55,13 @@ class Cases(unittest.TestCase):
             insonate.phantom(gallstnoe=True)
         with self.assertRaisesRegex(insonate.InputError, "there is no such file"):
             insonate.open_case("/nowhere.nii.gz")
-        with self.assertRaises(TypeError):
-            insonate.Simulator(None)
+        with self.assertRaisesRegex(insonate.InputError, r"phantom: 'gallstone' is \[True\], which is not a number; give"):
+            insonate.phantom(gallstone=[True])
+        for other in (None, "abdomen"):
+            with self.assertRaisesRegex(TypeError, "not a Case; take one from open_case"):
+                insonate.Simulator(other)
+        with self.assertRaisesRegex(TypeError, "not a Case; take one from open_case"):
+            insonate.ImageSimilarity("abdomen", np.zeros((96, 128)), "linear")
 
 
 class Pictures(unittest.TestCase):
@@ -80,7 +85,7 @@ class Pictures(unittest.TestCase):
             self.simulator.pose = poses[i]
             np.testing.assert_array_equal(batch["image"][i], self.simulator.image())
             truth = self.simulator.truth()
-            for name in ("label", "visible_label", "reach"):
+            for name in ("label", "visible_label", "reach", "skin_mm"):
                 np.testing.assert_array_equal(batch[name][i], truth[name])
         np.testing.assert_array_equal(batch["image"], self.simulator.images(poses))
         self.assertTrue((batch["image"][0] != batch["image"][1]).any())
@@ -151,7 +156,12 @@ class Pictures(unittest.TestCase):
             insonate.Probe("linear", width=3)
         with self.assertRaises(ValueError):
             insonate.Probe("linear", lines=0)
-        with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000, not between 0.1 and 1000"):
+        with self.assertRaisesRegex(insonate.InputError, "Probe: 'lines' is 64.5, which is not a count"):
+            insonate.Probe("linear", lines=64.5)
+        with self.assertRaisesRegex(insonate.InputError, "Probe: 'width_mm' is None, which is not a number"):
+            insonate.Probe("linear", width_mm=None)
+        self.assertEqual(insonate.Probe("linear", width_mm=np.float32(50)).width_mm, 50)
+        with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000; give a number from 0.1 to 1000"):
             self.simulator.set_probe("linear", 5000)
 
     def test_settings_take_the_numbers_of_numpy(self):
@@ -248,7 +258,7 @@ class Registrations(unittest.TestCase):
         # Attenuation and shadows differ over a whole image, but little within a patch.
         with insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm, patch=0) as whole:
             self.assertLess(whole.similarity(poses[2:3])[0], similarity[2])
-        with self.assertRaisesRegex(insonate.InputError, "^patch: .*give 0, or 4 to 128"):
+        with self.assertRaisesRegex(insonate.InputError, "^patch: a patch is 2 pixels wide, .*give 0, or 4 to 128"):
             insonate.ImageSimilarity(case, picture, view.probe, view.depth_mm, patch=2)
         with insonate.ImageSimilarity(case, picture[:, ::-1], view.probe, view.depth_mm) as mirrored:
             self.assertLess(mirrored.similarity(poses[2:3])[0], similarity[2])
@@ -256,6 +266,9 @@ class Registrations(unittest.TestCase):
             insonate.ImageSimilarity(case, picture[0], view.probe)
         with self.assertRaisesRegex(insonate.InputError, "it has infinite values"):
             insonate.ImageSimilarity(case, np.full(picture.shape, -np.inf), view.probe)
+        for nothing in (np.full(picture.shape, np.nan), np.zeros(picture.shape)):
+            with self.assertRaisesRegex(insonate.InputError, "its pixels have one grey level or none"):
+                insonate.ImageSimilarity(case, nothing, view.probe)
         with self.assertRaisesRegex(insonate.InputError, "there is no such file"):
             insonate.ImageSimilarity(case, picture, view.probe, settings="/nowhere.toml")
 

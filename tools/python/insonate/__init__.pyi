@@ -96,6 +96,7 @@ class LabelledImages(TypedDict):
     label: NDArray[np.uint8]
     visible_label: NDArray[np.uint8]
     reach: NDArray[np.uint8]
+    skin_mm: NDArray[np.float32]
 
 class Stages(TypedDict, total=False):
     """What the settings leave out is not in it: with waves, as in the trainer, there are scattered, echo and wave, and
