@@ -209,7 +209,7 @@ void LiveRegistrar::end_round(const Task& task, const RegistrationSettings& sett
   state_.ct_from_sweep = found.ct_from_sweep;
   ++state_.rounds;
   state_.last = std::make_shared<const LiveRound>(
-      LiveRound{TrackedSweep(task.sweep), task.share_left_out, settings, std::move(found)});
+      LiveRound{TrackedSweep(task.sweep), task.share_left_out, settings, std::move(found), gl::device_description()});
 }
 
 void LiveRegistrar::run() {

@@ -27,6 +27,7 @@ struct LiveRound {
   double share_left_out = 0;      ///< of their pixels, by Prepare
   RegistrationSettings settings;  ///< with the range that it searched
   SweepRegistration found;
+  std::string device;  ///< OpenGL's, that computed it
 };
 
 /// Readies the images of a round for the estimate (ct_from_sweep), on the registrar's thread. It may leave out pixels

@@ -184,6 +184,7 @@ std::filesystem::path LiveSession::save(const std::filesystem::path& to, const L
       std::string(request_.subject),    std::string(request_.tracker), read, round.settings, round.found,
       std::vector<ComparisonPictures>()};
   report.landmark_error_mm = request_.start.landmark_error_mm;
+  report.device = round.device;
   write_registration(name, std::move(report), subject_.ct);
   return name;
 }

@@ -74,7 +74,7 @@ void add_recording(CLI::App& mode, Options& options) {
   mode.add_option("--record", options.record, "Record every sample of the run as a sequence file (.igs.mha)")
       ->type_name("FILE");
   mode.add_flag("--record-images", options.record_images,
-                "Record the ultrasound too, in a second file: FILE-images.igs.mha");
+                "Record the ultrasound too, in a second file: sweep-images.igs.mha beside sweep.igs.mha");
   mode.add_option("--record-raw", options.record_raw,
                   "Record what a live tracker's device sends, byte for byte; '--tracker raw:FILE' replays it")
       ->type_name("FILE");

@@ -52,6 +52,21 @@ double orthonormal_error(const glm::dmat3& rotation) {
   return largest;
 }
 
+/// Returns which of a matrix's columns are not those of a rotation, and by how much.
+std::string how_not_orthonormal(const glm::dmat3& m) {
+  const glm::dvec3 lengths(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+  double stretch = 0, skew = 0;
+  for (int c = 0; c < 3; ++c) {
+    stretch = std::max(stretch, std::abs(lengths[c] - 1));
+    const int next = (c + 1) % 3;
+    skew = std::max(skew, std::abs(glm::dot(m[c], m[next])) / (lengths[c] * lengths[next]));
+  }
+  if (stretch >= skew)
+    return formatted("its columns are %.5g, %.5g and %.5g long, not 1", lengths.x, lengths.y, lengths.z);
+  return formatted("two of its columns are %.3g degrees off a right angle",
+                   glm::degrees(std::asin(std::min(skew, 1.0))));
+}
+
 std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm, double largest_error) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
@@ -64,8 +79,8 @@ std::optional<std::string> why_not_rigid(const glm::dmat4& m, double reach_mm, d
   if (std::abs(determinant) < kSingular)
     return formatted("the rotation is singular: its determinant is %g", determinant);
   if (determinant < 0) return formatted("the rotation mirrors: its determinant is %g", determinant);
-  const double error = orthonormal_error(rotation);
-  if (error > largest_error) return formatted("the rotation is not orthonormal: it stretches or shears by %.2g", error);
+  if (orthonormal_error(rotation) > largest_error)
+    return "the rotation is not orthonormal: " + how_not_orthonormal(rotation);
   const double length = glm::length(glm::dvec3(m[3]));
   if (length > reach_mm) return formatted("the translation is %g mm long, further than anything reaches", length);
   return std::nullopt;

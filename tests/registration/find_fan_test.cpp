@@ -79,7 +79,7 @@ TEST_CASE("what is not a fan is refused, and so is one that no probe has") {
   CHECK(problem(mask_of([](int x, int y) { return std::abs(std::hypot(x - 160, y - 120) - 90) < 12; })) ==
         "its images show no fan: what carries echo has the shape of none");
   CHECK_THAT(problem(fan_of(*find_probe("linear"), 50, {160, 10}, 0.25), glm::dvec2(0.01)),
-             Catch::Contains("has a depth of 2.0 mm, not 10 to 400"));
+             Catch::Contains("has a depth of 2.0 mm, not 20 to 400"));
   CHECK_THAT(problem(fan_of(*find_probe("linear"), 50, {160, 10}, 0.25), glm::dvec2(1.5)),
              Catch::Contains("a face's width of 241") && Catch::Contains("not 5 to 200"));
 }

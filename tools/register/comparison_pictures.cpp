@@ -89,7 +89,7 @@ std::vector<ComparisonPictures> write_comparison(const std::filesystem::path& fo
     one.image = index;
     const SweepImage& image = sweep.images[one.image];
     const auto write = [&](const char* what, const Image<Rgba8>& picture) {
-      const std::string name = std::to_string(one.image) + "-" + what + ".png";
+      const std::string name = std::to_string(one.image + 1) + "-" + what + ".png";
       write_png(folder / name, picture);
       return (folder.filename() / name).generic_string();
     };

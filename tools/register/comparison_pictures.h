@@ -20,9 +20,9 @@ struct ComparisonPictures {
 };
 
 /// Writes pictures of some images of a sweep, evenly spread among the half that varies most in depth, into a new
-/// folder: the ultrasound, the CT's slice in the same plane before and after registration, and both blended: ultrasound
-/// in orange, the CT in blue, and white where both are bright. The probe's marker is on the left. Throws InputError if
-/// they cannot be written.
+/// folder, by their numbers from 1: the ultrasound, the CT's slice in the same plane before and after registration, and
+/// both blended: ultrasound in orange, the CT in blue, and white where both are bright. The probe's marker is on the
+/// left. Throws InputError if they cannot be written.
 /// @param folder       returned paths begin with its last part
 /// @param deformation  of the sweep, before the map `after`; null: none
 std::vector<ComparisonPictures> write_comparison(const std::filesystem::path& folder, const TrackedSweep& sweep,

@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
       ->default_str("the built-in patient");
   arguments.add_option("--transform", transform, "Take this transform of the recording for the probe's pose")
       ->type_name("NAME")
-      ->default_str("ProbeToPatient, or a path to it");
+      ->default_str("the way from Probe to Patient, else to Reference, else to Tracker");
   declare_sweep_options(arguments, sweep);
   arguments
       .add_option("--poses", poses_file,
@@ -167,7 +167,12 @@ int main(int argc, char** argv) {
     SweepInput input = sweep.input();
     input.file = recording;
     input.transform = transform;
-    if (!poses_file.empty()) input.poses = read_poses(poses_file, "sweep_from_probe");
+    if (!poses_file.empty()) {
+      if (!is_dicom_sweep(recording))
+        throw InputError("--poses", "", "they are for DICOM ultrasound; a recording has poses of its own",
+                         "leave it out");
+      input.poses = read_poses(poses_file, "sweep_from_probe");
+    }
     input.slices = settings.slices;
     if (!settings_file.empty()) settings.wein = read_wein_settings(settings_file);
     if (patch) settings.wein.similarity_patch = *patch;
@@ -187,15 +192,16 @@ int main(int argc, char** argv) {
     const StartTransform start = sweep.start();
     const glm::dmat4& ct_from_sweep = start.ct_from_sweep;
 
+    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
+    const Case subject = open_subject(subject_path);
     ReadSweep read =
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
     if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
     if (start.landmark_error_mm)
       std::printf("Landmarks: fitted within %.1f mm (root mean square).\n", *start.landmark_error_mm);
+    if (!read.transform.empty()) std::printf("Transform of the probe: %s.\n", read.transform.c_str());
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     if (!read.found_in_volume.empty()) std::printf("Found in the volume: %s.\n", read.found_in_volume.c_str());
-    const TissueTable table = read_tissue_table(assets_folder() / "tissues.toml");
-    const Case subject = open_subject(subject_path);
     check_start(subject_path, subject.ct, read.sweep, ct_from_sweep);
     read.share_at_ends = leave_out_ends(read.sweep, subject.ct, ct_from_sweep);
     if (read.sweep.images.size() < 2)
@@ -226,7 +232,8 @@ int main(int argc, char** argv) {
                                     deformed ? &*deformed : nullptr,
                                     &free_form,
                                     command_line(argc, argv),
-                                    start.landmark_error_mm};
+                                    start.landmark_error_mm,
+                                    gl::device_description()};
     write_registration(out, report, subject.ct);
     std::printf("%s\nSimilarity (%s): %.4f before, %.4f after. %zu evaluations in %.1f s.\n", verdict(report).c_str(),
                 measure.c_str(), found.similarity_before, found.similarity_after, found.evaluations.size(),

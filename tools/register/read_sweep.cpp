@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -18,6 +20,7 @@
 #include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/files/toml_table.h"
+#include "sim/image_headers/header_text.h"
 #include "sim/tissue/acoustic_volume.h"
 #include "sim/volume/dicom_series.h"
 #include "tools/cli/pose_file.h"
@@ -28,6 +31,7 @@ namespace {
 
 constexpr double kMaxOffPlane_mm = 1;  // of the face's middle from the image, where no --face-pixel is given
 constexpr std::size_t kLargestProbeFile = 1 << 20;
+constexpr std::size_t kFront = 1 << 20;  // bytes of a file that may tell what it is
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 constexpr double kSamePixel = 0.01;  // by which the pixels of a recording's images may differ in size
@@ -44,7 +48,7 @@ void check_mask(const Image<std::uint8_t>& picture, const SweepInput& input) {
   const auto size = [](const Image<std::uint8_t>& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
   };
-  throw InputError("--mask", "", "it has " + size(*input.mask) + " pixels, and the images have " + size(picture),
+  throw InputError(input.mask_file, "", "it has " + size(*input.mask) + " pixels, and the images have " + size(picture),
                    "draw it over one of the images");
 }
 
@@ -220,6 +224,33 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
   return all;
 }
 
+// Returns whether a file is a volume in a format that recordings have too, or in one that they do not have.
+bool is_volume(const std::string& file) {
+  std::string front(kFront, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(front.data(), std::streamsize(front.size()));
+  front.resize(std::size_t(stream.gcount()));
+  const std::string name = lower_case(file);
+  const auto ends_in = [&](std::initializer_list<const char*> endings) {
+    return std::ranges::any_of(endings, [&](const char* ending) { return name.ends_with(ending); });
+  };
+  if (front.empty()) return false;
+  return ends_in({".nii", ".nii.gz"}) ||
+         (ends_in({".nrrd", ".mha", ".mhd"}) && front.find("Seq_Frame") == std::string::npos);
+}
+
+RecordedScan read_recording(const SweepInput& input) try {
+  RecordingOptions options;
+  options.transform = input.transform;
+  options.without_times = true;
+  return read_log(input.file, options);
+} catch (const InputError&) {
+  if (is_volume(input.file))
+    throw InputError(input.file, "", "it is not a recording of tracked images: it has no fields Seq_Frame...",
+                     "if it is a 3D ultrasound volume, say with --beam X,Y,Z in which direction the sound ran");
+  throw;
+}
+
 FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& frames, SweepInput& input) {
   EchoSeen seen;
   const glm::dvec2 mm = pixel_size(frames.front().probe_from_pixel);
@@ -236,20 +267,25 @@ FoundFan find_probe_in_recording(ImageReader& reader, const std::vector<Frame>& 
 
 }  // namespace
 
-ReadSweep read_sweep(const SweepInput& given) {
+bool is_dicom_sweep(const std::string& file) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(given.file, error) && is_dicom_file(given.file)) return read_dicom_sweep(given);
-  if (given.poses)
-    throw InputError("--poses", "", "they are for DICOM ultrasound; a recording has poses of its own", "leave it out");
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  const bool is_dicom = is_dicom_file(file);
+  if (!is_dicom && lower_case(file).ends_with(".dcm"))
+    throw InputError(file, "", "it is not DICOM: DICM does not stand behind its first 128 bytes",
+                     "export the clip again, or give the file another ending");
+  return is_dicom;
+}
+
+ReadSweep read_sweep(const SweepInput& given) {
+  if (is_dicom_sweep(given.file)) return read_dicom_sweep(given);
   SweepInput input = given;
-  RecordingOptions options;
-  options.transform = input.transform;
-  options.without_times = true;
-  const RecordedScan scan = read_log(input.file, options);
+  const RecordedScan scan = read_recording(input);
   if (!scan.images)
     throw InputError(input.file, "", "it holds no images that can be read", "record the ultrasound with the poses");
   const std::vector<Frame> all = usable_frames(scan, input);
   ReadSweep result;
+  result.transform = scan.recording.transform;
   result.frames = scan.samples.size();
   result.left_out = result.frames - all.size();
   ImageReader reader(*scan.images);

@@ -32,6 +32,7 @@ struct SweepInput {
   std::optional<glm::dvec2> face_pixel;        ///< where the middle of the probe's face lies in the images
   std::optional<std::array<int, 4>> clip;      ///< x, y, width, height of the part that is used, pixels
   std::optional<Image<std::uint8_t>> mask;     ///< of the images' size: pixels of 0 are not used
+  std::string mask_file;                       ///< that of the mask, for error messages
   std::optional<Probe> probe;                  ///< whose fan the images show; empty: found from the images
   std::optional<double> depth_mm;              ///< empty: that of the probe
   std::optional<std::vector<Pose>> poses;      ///< one per image, of a file that has none: sweep_from_probe
@@ -44,10 +45,15 @@ struct ReadSweep {
   TrackedSweep sweep;
   std::optional<FoundFan> fan;  ///< where the probe was found from the images
   std::string found_in_volume;  ///< probe and planes as read_volume_sweep() found them, for the user; else empty
+  std::string transform;        ///< that gave the probe's poses: "ProbeToPatient"; empty where no transform did
   std::size_t frames = 0;       ///< of the recording
   std::size_t left_out = 0;     ///< frames without a usable pose
   double share_at_ends = 0;     ///< of the pixels, left out by leave_out_ends()
 };
+
+/// Returns whether read_sweep() reads a file by read_dicom_sweep(). Throws InputError for a file whose name ends in
+/// .dcm and that is not DICOM.
+bool is_dicom_sweep(const std::string& file);
 
 /// Reads images and poses, of a DICOM file by read_dicom_sweep(). The frame of each pose is that of the fan: its origin
 /// is the middle of the probe's face, x runs along the rows of the images, and y along their columns. Without

@@ -107,6 +107,16 @@ std::string figure(const std::string& file, const std::string& caption) {
   return "<figure><img alt='" + caption + "' src='" + file + "'><figcaption>" + caption + "</figcaption></figure>";
 }
 
+// A matrix by rows, as a person reads it; registration.json has all digits.
+std::string matrix_row(const std::string& name, const glm::dmat4& matrix) {
+  std::string lines;
+  for (int r = 0; r < 4; ++r) {
+    for (int column = 0; column < 4; ++column) lines += formatted("%12.6f", matrix[column][r]);
+    lines += "\n";
+  }
+  return row(name, "<pre>" + lines + "</pre>");
+}
+
 std::string free_form_rows(const FreeFormRegistration& found, const FreeFormSettings& settings) {
   const auto change = [](double before, double after) { return fixed(before, 4) + " &rarr; " + fixed(after, 4); };
   return row("Control points of the deformation",
@@ -123,7 +133,7 @@ constexpr char kStyle[] =
     "body{font:15px/1.5 sans-serif;color:#1d2733;max-width:1500px;margin:2em auto;padding:0 1em}"
     ".verdict{font-weight:600;padding:.6em 1em;border-left:6px solid #2e7d4f;background:#eef6f0}"
     ".verdict.no{border-color:#b3362b;background:#fbeeec}th{text-align:left;padding-right:2em;font-weight:400}"
-    "td{font-variant-numeric:tabular-nums}.row{display:grid;gap:8px;"
+    "td{font-variant-numeric:tabular-nums}pre{margin:0}.row{display:grid;gap:8px;"
     "grid-template-columns:repeat(5,minmax(0,1fr))}figure{margin:0 0 "
     "1em}img{width:100%;display:block}figcaption{font-size:12px;color:#5f6c7b}";
 
@@ -175,6 +185,7 @@ std::string registration_json(const RegistrationReport& report) {
   json["doubts"] = found.doubts;
   json["ct"] = report.ct.empty() ? "built-in" : report.ct;
   json["recording"] = report.recording;
+  if (!report.input.transform.empty()) json["transform"] = report.input.transform;
   json["frames"] = report.input.frames;
   json["frames_left_out"] = report.input.left_out;
   json["share_left_out_at_ct_ends"] = report.input.share_at_ends;
@@ -214,6 +225,7 @@ std::string registration_json(const RegistrationReport& report) {
   for (const auto& [name, file] : {std::pair("recording_digest", report.recording), std::pair("ct_digest", report.ct)})
     if (const auto digest = digest_of_file(file)) json[name] = *digest;
   for (const AboutLine& line : about_this_build()) json["made_by"][line.name] = line.text;
+  json["made_by"]["OpenGL"] = report.device;
   if (report.free_form) json["free_form"] = free_form_json(*report.free_form, *report.free_form_settings);
   return json.dump(2) + "\n";
 }
@@ -247,6 +259,7 @@ std::string registration_page(const RegistrationReport& report) {
   html += row("CT", escaped(report.ct.empty() ? "the built-in patient" : report.ct));
   html += row("Recording", escaped(report.recording) + ", " + std::to_string(report.input.sweep.images.size()) +
                                " of " + std::to_string(report.input.frames) + " images");
+  if (!report.input.transform.empty()) html += row("Transform of the probe", escaped(report.input.transform));
   if (report.input.share_at_ends > 0)
     html += row("Left out", fixed(100 * report.input.share_at_ends, 0) +
                                 " % of the images, black in the pictures: there the CT ends");
@@ -265,6 +278,7 @@ std::string registration_page(const RegistrationReport& report) {
                   fixed(std::hypot(at[3], at[4], at[5]) / found.motion.radius_mm * 180 / M_PI, 1) + " degrees");
   html += row("Evaluations", std::to_string(found.evaluations.size()) + " in " + fixed(found.seconds, 1) + " s");
   if (report.free_form) html += free_form_rows(*report.free_form, *report.free_form_settings);
+  html += matrix_row("ct_from_sweep, in LPS and mm", found.ct_from_sweep);
   html +=
       "</table>\n<p>The blends show the ultrasound in orange and the CT in blue. Where both are bright they are "
       "white. The probe's marker is on the left.</p>\n";

@@ -24,6 +24,7 @@ struct RegistrationReport {
   const FreeFormSettings* free_form_settings = nullptr;  ///< of free_form
   std::string command{};                                 ///< the arguments that asked for it; empty for a live one
   std::optional<double> landmark_error_mm{};             ///< of the start, if landmarks gave it
+  std::string device{};                                  ///< OpenGL's, that computed it
 
   /// Returns the deformation that belongs to the result; null if there is none.
   const FreeFormField* deformation() const {

@@ -41,6 +41,7 @@ SweepInput SweepOptions::input() const {
   if (!clip.empty()) input.clip = {clip[0], clip[1], clip[2], clip[3]};
   if (!mask_file.empty()) {
     input.mask = read_png(mask_file);
+    input.mask_file = mask_file;
     if (std::ranges::all_of(input.mask->pixels, [](std::uint8_t pixel) { return pixel == 0; }))
       throw InputError(mask_file, "", "the mask is black, so that nothing of the images is left",
                        "draw what to use in white");

@@ -96,6 +96,7 @@ TEST_CASE("a recording is read with its images at the probe's face") {
   recorded.record(usual_matrix());
   const ReadSweep read = read_sweep(recorded.input);
   CHECK(read.frames == 3);
+  CHECK(read.transform == "ProbeToPatient");
   CHECK(read.left_out == 0);
   REQUIRE(read.sweep.images.size() == 3);
   CHECK(read.sweep.images[1].sweep_from_probe.translation.z == Approx(2));
@@ -155,6 +156,46 @@ TEST_CASE("a recording that cannot be registered is refused in a sentence") {
   recorded.refused("it has one image alone; give a sweep of two images or more.");
 }
 
+TEST_CASE("a fan whose pixels have the size of another unit is refused") {
+  Recorded recorded;
+  recorded.input.probe.reset();
+  recorded.input.depth_mm.reset();
+  recorded.record(usual_matrix());
+  CHECK(read_sweep(recorded.input).sweep.depth_mm == Approx(kPixel_mm * kHeight).margin(kPixel_mm));
+  glm::dmat4 in_cm(0.1);
+  in_cm[3][3] = 1;
+  recorded.record(in_cm * usual_matrix());
+  recorded.refused("scan.igs.mha: the fan in its images has a depth of 4.5 mm, not 20 to 400; name");
+  recorded.refused("if a pixel is not 0.15 x 0.15 mm large, correct ImageToProbe.");
+}
+
+TEST_CASE("a file that is not what its ending says is refused by what it lacks") {
+  Recorded recorded;
+  recorded.input.file = recorded.folder.put("clip.DCM", "not a clip").string();
+  recorded.refused("clip.DCM: it is not DICOM: DICM does not stand behind its first 128 bytes; export the clip again");
+  const auto volume = [&](const char* name, const std::string& bytes) {
+    recorded.input.file = recorded.folder.put(name, bytes).string();
+    recorded.refused(
+        ": it is not a recording of tracked images: it has no fields Seq_Frame...; if it is a 3D "
+        "ultrasound volume, say with --beam X,Y,Z in which direction the sound ran.");
+  };
+  volume("volume.nrrd",
+         "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 1 1\nkinds: domain domain domain\nencoding: raw\n\nab");
+  volume("volume.mha",
+         "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\n"
+         "ElementDataFile = LOCAL\nab");
+  volume("volume.nii.gz", "any");
+  recorded.input.file = (recorded.folder.path / "none.nii").string();
+  recorded.refused("none.nii: there is no such file");
+  // A recording that is damaged is not taken for a volume.
+  recorded.input.file = recorded.folder
+                            .put("cut.igs.mha",
+                                 "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n"
+                                 "Seq_Frame0000_ProbeToPatientTransformStatus = OK\nElementDataFile = LOCAL\nabcd")
+                            .string();
+  CHECK_THROWS_WITH(read_sweep(recorded.input), !Contains("--beam"));
+}
+
 TEST_CASE("a probe is read from a file, and refused with its line") {
   CHECK(probe_of("kind = \"curvilinear\"\nradius_mm = 50\nfield_of_view_deg = 70\ndepth_mm = 150\n").radius_mm == 50);
   CHECK(probe_of("kind = \"phased\"\nfield_of_view_deg = 90\nwidth_mm = 20\ndepth_mm = 150\n").width_mm == 20);
@@ -184,10 +225,11 @@ TEST_CASE("a mask leaves pixels out") {
   write_png(file, mask);
   CHECK(read_png(file).pixels == mask.pixels);
   recorded.input.mask = read_png(file);
+  recorded.input.mask_file = file.string();
   // The left half of the images, of which the fan of 40 mm takes two thirds.
   CHECK(double(unknown() - before) > 0.3 * double(128 * 96) / 2);
   recorded.input.mask = Image<std::uint8_t>(kWidth + 1, kHeight);
-  recorded.refused("--mask: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
+  recorded.refused("mask.png: it has 41 x 30 pixels, and the images have 40 x 30; draw it over one of the images.");
   CHECK_THROWS_WITH(read_png(recorded.input.file), Contains("it cannot be read as a PNG"));
   CHECK_THROWS_WITH(read_png(recorded.folder.path / "none.png"), Contains("there is no such file; check the name."));
   write_png(file, Image<std::uint8_t>(8193, 1));
@@ -268,8 +310,6 @@ TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same
   write_dicom_clip(input.file, clip);
   input.poses = {Pose{}};
   refused("clip.dcm: it has one image; name a clip of a sweep.");
-  recorded.input.poses = {Pose{}, Pose{}, Pose{}};
-  recorded.refused("--poses: they are for DICOM ultrasound; a recording has poses of its own; leave it out.");
 }
 
 TEST_CASE("a volume of ultrasound is read as slices along its beam, and one that cannot be is refused") {

@@ -109,7 +109,7 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
   const ProgramOutcome outcome = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
   INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 0);
-  CHECK(outcome.output.find("Converged: the expected error") == 0);
+  CHECK(outcome.output.find("Transform of the probe: ProbeToPatient.\nConverged: the expected error") == 0);
   const fs::path out = place.in("out");
   const auto json = nlohmann::json::parse(read_file(out / "registration.json"));
   CHECK(json["converged"] == true);
@@ -120,6 +120,8 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
   CHECK(json["recording_digest"] == digest_of(read_file(place.in("sweep.igs.mha"))));
   CHECK(json["ct_digest"] == digest_of(read_file(place.in("ct.nrrd"))));
   CHECK(json["made_by"].contains("Commit"));
+  CHECK(json["made_by"]["OpenGL"].get<std::string>().find(", OpenGL 4.") != std::string::npos);
+  CHECK(json["transform"] == "ProbeToPatient");
   CHECK(json["patch"] == 8);
   // The shift of the recording, within the size of the CT's voxels.
   const double shift[] = {3, -2, 4};
@@ -142,6 +144,8 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
     ++shown;
   }
   CHECK(shown == 20);
+  // The page shows the matrix that the JSON holds.
+  CHECK(page.find(formatted("%12.6f\n", json["ct_from_sweep"][1][3].get<double>())) != std::string::npos);
   // A name that is taken is refused before any work.
   const ProgramOutcome again = place.run(place.in("sweep.igs.mha") + " " + place.in("out"));
   CHECK(again.code == 2);
@@ -172,7 +176,7 @@ TEST_CASE("a recording is registered with the probe that its images show") {
   const ProgramOutcome outcome = place.run_as_found(place.in("sweep.igs.mha") + " " + place.in("out"));
   INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 0);
-  CHECK(outcome.output.find("Found in the images: curvilinear, radius ") == 0);
+  CHECK(outcome.output.find("\nFound in the images: curvilinear, radius ") != std::string::npos);
   const auto json = nlohmann::json::parse(read_file(fs::path(place.in("out")) / "registration.json"));
   CHECK(json["probe"]["found_from_images"] == true);
   CHECK(json["probe"]["kind"] == "curvilinear");
@@ -250,6 +254,9 @@ TEST_CASE("a clip of DICOM ultrasound with its poses is registered inside a labe
   for (std::size_t row = 0; row < 3; ++row)
     CHECK(json["ct_from_sweep"][row][3].get<double>() == Approx(shift[row]).margin(4));
   CHECK(place.run(place.in("sweep.dcm") + " " + place.in("other")).errors.find("as --poses FILE") != std::string::npos);
+  // A recording has poses of its own, whatever the file of others holds.
+  CHECK(place.run("--poses " + place.in("sweep.igs.mha") + " " + place.in("sweep.igs.mha") + " " + place.in("other"))
+            .errors.find("--poses: they are for DICOM ultrasound") != std::string::npos);
 }
 
 TEST_CASE("a recording of a body that has breathed is registered with a deformation") {
@@ -304,7 +311,7 @@ TEST_CASE("a registration that does not converge exits with 3 and says so in eve
                 "--search-mm 0 --search-deg 0");
   INFO(outcome.errors << outcome.output);
   REQUIRE(outcome.code == 3);
-  CHECK(outcome.output.find("Not converged: ") == 0);
+  CHECK(outcome.output.find("\nNot converged: ") != std::string::npos);
   const fs::path out = place.in("out");
   CHECK(nlohmann::json::parse(read_file(out / "registration.json"))["converged"] == false);
   for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})

@@ -197,7 +197,7 @@ TEST_CASE("the pictures of a result are of images that show something, spread am
   REQUIRE(pictures.size() == 2);
   CHECK(pictures[0].image == 5);
   CHECK(pictures[1].image == 7);
-  CHECK(pictures[0].blend_after == "pictures/5-blend-after.png");
+  CHECK(pictures[0].blend_after == "pictures/6-blend-after.png");
   CHECK(std::filesystem::exists(folder.path / pictures[0].blend_after));
   // There are more pictures than such images, but not more than images.
   CHECK(write_comparison(folder.path / "all", sweep, ct, same, same, nullptr, 20).size() == 8);
