@@ -45,8 +45,9 @@ void go_on_to_patient(const Sequence& sequence, std::string_view from, Transform
       std::find_if(sequence.transform_names.begin(), sequence.transform_names.end(),
                    [](const auto& name) { return !name.starts_with("Reference") && !name.starts_with("Image"); });
   const std::string& example = tool == sequence.transform_names.end() ? sequence.transform_names.front() : *tool;
-  throw InputError(sequence.file, "", "no transform leads from Probe to Patient, Reference or Tracker; it has " + names,
-                   "name the probe's with 'replay:FILE?transform=" + example + "' or '--transform " + example + "'");
+  throw InputError(
+      sequence.file, "", "no transform leads from Probe to Patient, Reference or Tracker; it has " + names,
+      "name the probe's, such as " + example + ": by --transform, or for a tracker as replay:FILE?transform=NAME");
 }
 
 TransformPath usual_path(const Sequence& sequence) {

@@ -218,6 +218,7 @@ struct Run {
     const auto doubt = [&](const char* why) { result.doubts.emplace_back(why); };
     if (end.value <= 0) return doubt("the images show nothing of the CT");
     if (spread_mm(compared) < kMinSpread_mm) doubt(kTooClose);
+    if (compared.images.size() < kMinImages) doubt(kTooFew);
     if (!end.within_tolerance) doubt("the search used up its evaluations");
     const double mm = glm::length(glm::dvec3(end.at[0], end.at[1], end.at[2])),
                  deg = glm::degrees(glm::length(glm::dvec3(end.at[3], end.at[4], end.at[5])) / result.motion.radius_mm);

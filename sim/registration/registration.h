@@ -49,7 +49,11 @@ struct RegistrationSettings {
 /// the similarity shows it. So no registration of them counts as converged.
 inline constexpr double kMinSpread_mm = 25;
 inline constexpr const char* kTooClose =
-    "the images lie too close together to tell one place from another";                    ///< a doubt
+    "the images lie too close together to tell one place from another";  ///< a doubt
+/// With fewer images a wrong place a few mm away can be the most similar, and no measure of the similarity shows it
+/// either.
+inline constexpr std::size_t kMinImages = 8;
+inline constexpr const char* kTooFew = "fewer than 8 images were compared";                ///< a doubt
 inline constexpr const char* kNotSearched = "no wide search has looked for other places";  ///< a doubt
 
 /// One evaluation of the similarity.

@@ -156,6 +156,18 @@ TEST_CASE("images that lie close together do not converge, even at the right pla
   CHECK(std::ranges::count(found.doubts, "the images lie too close together to tell one place from another") == 1);
 }
 
+TEST_CASE("seven images do not converge, even at the right place and far apart") {
+  Fixture f;
+  f.settings.search_mm = f.settings.search_deg = 3;
+  TrackedSweep few = f.sweep;
+  few.images.erase(few.images.begin() + 3);
+  REQUIRE(few.images.size() + 1 == kMinImages);
+  REQUIRE(spread_mm(few) > kMinSpread_mm);
+  const SweepRegistration found = SweepRegistrar(f.body, few, f.settings).from(glm::dmat4(1.0));
+  CHECK(f.error(found) < 2);
+  CHECK(found.doubts == std::vector<std::string>{kTooFew});
+}
+
 TEST_CASE("a registration that has not looked for other places does not converge, even at the right one") {
   Fixture f;
   f.settings.search_mm = f.settings.search_deg = 0;

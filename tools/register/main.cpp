@@ -31,6 +31,7 @@ using namespace insonate;
 namespace {
 
 constexpr int kNotConverged = 3;
+constexpr double kContradicting_mm = 10;           // apart: what a person points at twice is nearer
 constexpr double kMentioned = 0.005, kMuch = 0.5;  // of the images' pixels, where the CT ends
 
 /// Returns the program's arguments as a shell would take them.
@@ -168,6 +169,7 @@ int main(int argc, char** argv) {
     input.file = recording;
     input.transform = transform;
     if (!poses_file.empty()) {
+      check_is_file(recording);
       if (!is_dicom_sweep(recording))
         throw InputError("--poses", "", "they are for DICOM ultrasound; a recording has poses of its own",
                          "leave it out");
@@ -198,7 +200,10 @@ int main(int argc, char** argv) {
         beam.empty() ? read_sweep(input) : read_volume_sweep(recording, glm::dvec3(beam[0], beam[1], beam[2]), input);
     if (!mask_volume.empty()) keep_labelled(read.sweep, read_labels(mask_volume), mask_volume);
     if (start.landmark_error_mm)
-      std::printf("Landmarks: fitted within %.1f mm (root mean square).\n", *start.landmark_error_mm);
+      std::printf("Landmarks: fitted within %.1f mm (root mean square)%s.\n", *start.landmark_error_mm,
+                  *start.landmark_error_mm > kContradicting_mm
+                      ? "; so they contradict each other: is each point of the CT in LPS, and that of the same line"
+                      : "");
     if (!read.transform.empty()) std::printf("Transform of the probe: %s.\n", read.transform.c_str());
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());
     if (!read.found_in_volume.empty()) std::printf("Found in the volume: %s.\n", read.found_in_volume.c_str());

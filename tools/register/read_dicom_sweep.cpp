@@ -50,11 +50,12 @@ ReadSweep read_dicom_sweep(const SweepInput& given) {
     throw InputError("--transform", "", "DICOM ultrasound has no transforms", "leave it out, and give --poses FILE");
   if (!input.poses)
     throw InputError(input.file, "", "DICOM does not say where the probe was",
-                     formatted("give the %zu poses of its images as --poses FILE", clip.frames));
+                     "give a pose for each of its " + count_of(clip.frames, "image") + " as --poses FILE");
   if (input.poses->size() != clip.frames)
-    throw InputError("--poses", "",
-                     formatted("there are %zu poses, and the clip has %zu images", input.poses->size(), clip.frames),
-                     "write one matrix per image");
+    throw InputError(
+        "--poses", "",
+        "there are " + count_of(input.poses->size(), "pose") + ", and the clip has " + count_of(clip.frames, "image"),
+        "write one matrix per image");
   if (clip.frames < 2) throw InputError(input.file, "", "it has one image", "name a clip of a sweep");
   glm::dmat4 probe_from_pixel = matrix_of(input, clip);
   if (!input.probe_from_pixel && input.probe && !input.face_pixel)

@@ -151,7 +151,7 @@ FoundFan find_probe_in(const EchoSeen& seen, const glm::dmat4& probe_from_pixel,
     throw InputError(
         input.file, "", search.problem,
         formatted("name the probe with --probe and --depth, or with --probe-file; if a pixel is not %.3g x "
-                  "%.3g mm large, correct ImageToProbe",
+                  "%.3g mm large, give the right ImageToProbe as --image-to-probe FILE",
                   mm.x, mm.y));
   input.probe = search.fan->probe;
   input.depth_mm = search.fan->depth_mm;

@@ -147,7 +147,7 @@ std::string verdict(const SweepRegistration& found) {
                                          " mm; where the truth was known, up to ten times that was measured.";
   std::string text = "Not converged: ";
   for (std::size_t i = 0; i < found.doubts.size(); ++i) text += (i > 0 ? ", and " : "") + found.doubts[i];
-  return text + ". Do not use this transform.";
+  return text + ". Do not use this transform. A nearer start, a wider search or more images may help.";
 }
 
 std::string verdict(const RegistrationReport& report) {

@@ -71,8 +71,8 @@ StartTransform start_from_landmarks(const std::string& file) {
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> all(numbers.data(), 6, Eigen::Index(pairs));
   const Eigen::MatrixXd in_sweep = all.topRows(3), in_ct = all.bottomRows(3);
   if (off_line_mm(in_sweep) < kMinOffLine_mm || off_line_mm(in_ct) < kMinOffLine_mm)
-    throw InputError(file, "", "the landmarks lie on a line, so no rotation follows from them",
-                     "add one that lies beside it");
+    throw InputError(file, "", "the landmarks lie on a line or within 5 mm of it, so no rotation follows from them",
+                     "add one that lies beside it, and give all in mm");
   const Eigen::Matrix4d fit = Eigen::umeyama(in_sweep, in_ct, false);
   StartTransform result;
   for (int column = 0; column < 4; ++column)

@@ -105,11 +105,12 @@ TEST_CASE("what is read of PLUS's recordings is what an independent reader finds
 
 TEST_CASE("PLUS's recordings that do not show where the probe was are refused with what to do") {
   if (!is_there()) return;
-  CHECK_THAT(refusal("BkCurvilinearScanConvertedData.igs.mha"),
-             Contains("it has ReferenceToTracker, StylusToTracker") && Contains("--transform StylusToTracker"));
+  CHECK_THAT(
+      refusal("BkCurvilinearScanConvertedData.igs.mha"),
+      Contains("it has ReferenceToTracker, StylusToTracker") && Contains("such as StylusToTracker: by --transform"));
   CHECK_THAT(refusal("Prostate10_tracker.igs.mha"), Contains("it has ToolToTracker"));
   const std::string stepper = "SegmentationTest_BKMedical_RandomStepperMotionData2_Trimmed_Cropped_FlipX.igs.mha";
-  CHECK_THAT(refusal(stepper), Contains("--transform ToolToTracker"));
+  CHECK_THAT(refusal(stepper), Contains("such as ToolToTracker: by --transform"));
   CHECK_THAT(refusal(stepper, {.transform = "ToolToTracker"}), Contains("no Timestamp") && Contains("?rate=HZ"));
   CHECK_THAT(refusal("NrrdSample.igs.nrrd"), Contains("its frames have no transforms") && Contains("with a tracker"));
 }

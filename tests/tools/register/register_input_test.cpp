@@ -166,7 +166,7 @@ TEST_CASE("a fan whose pixels have the size of another unit is refused") {
   in_cm[3][3] = 1;
   recorded.record(in_cm * usual_matrix());
   recorded.refused("scan.igs.mha: the fan in its images has a depth of 4.5 mm, not 20 to 400; name");
-  recorded.refused("if a pixel is not 0.15 x 0.15 mm large, correct ImageToProbe.");
+  recorded.refused("if a pixel is not 0.15 x 0.15 mm large, give the right ImageToProbe as --image-to-probe FILE.");
 }
 
 TEST_CASE("a file that is not what its ending says is refused by what it lacks") {
@@ -297,7 +297,7 @@ TEST_CASE("a clip of DICOM ultrasound is read with a pose per image, as the same
   input.poses->pop_back();
   refused("--poses: there are 2 poses, and the clip has 3 images; write one matrix per image.");
   input.poses.reset();
-  refused("clip.dcm: DICOM does not say where the probe was; give the 3 poses of its images as --poses FILE.");
+  refused("clip.dcm: DICOM does not say where the probe was; give a pose for each of its 3 images as --poses FILE.");
   input.poses = {Pose{}, Pose{}, Pose{}};
   clip.regions.clear();
   write_dicom_clip(input.file, clip);
@@ -472,7 +472,7 @@ TEST_CASE("without a probe, it is found from the fan in the images") {
   recorded.refused(
       "scan.igs.mha: its images show no fan: hardly any pixel carries echo; name the probe with --probe and --depth, "
       "or "
-      "with --probe-file; if a pixel is not 1.5 x 1.5 mm large, correct ImageToProbe.");
+      "with --probe-file; if a pixel is not 1.5 x 1.5 mm large, give the right ImageToProbe as --image-to-probe FILE.");
 }
 
 TEST_CASE("the fan of a real scanner's image is found, and real images without a fan are refused") {
