@@ -14,6 +14,7 @@
 #include "sim/core/text.h"
 #include "sim/files/digest.h"
 #include "sim/files/files.h"
+#include "sim/files/new_folder.h"
 #include "tools/cli/about.h"
 #include "tools/dataset/shard_file.h"
 
@@ -137,11 +138,8 @@ DatasetTissues dataset_tissues() {
 
 void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& patients) const {
   if (!has_begun()) {
+    check_may_begin();
     std::error_code error;
-    for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
-      if (const std::string name = entry->path().filename().string(); name != "shards" && !name.starts_with("."))
-        throw InputError(path_.string(), "", "the folder holds other files, such as " + in_quotes(name),
-                         "name a new folder");
     fs::create_directories(path_ / "shards", error);
     if (error)
       throw InputError(path_.string(), "", "the folder cannot be made (" + error.message() + ")",
@@ -150,6 +148,15 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
     if (rename_to_new(temporary, manifest_file()) != Renamed::done) fs::remove(temporary, error);
   }
   check_is_of(study);
+}
+
+void DatasetFolder::check_may_begin() const {
+  std::error_code error;
+  for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
+    if (const std::string name = entry->path().filename().string(); name != "shards" && !name.starts_with("."))
+      throw InputError(path_.string(), "", "the folder holds other files, such as " + in_quotes(name),
+                       "name a new folder");
+  refuse_unwritable(path_);
 }
 
 bool DatasetFolder::has_begun() const {

@@ -21,6 +21,8 @@ public:
   /// it is that of another study or another version of the program, or if the folder holds other files or cannot be
   /// written.
   void begin(const Study& study, const std::vector<StudyPatient>& patients) const;
+  /// Throws InputError if a dataset cannot begin here: the folder holds other files, or cannot be written.
+  void check_may_begin() const;
   /// Returns whether the folder has a manifest.
   bool has_begun() const;
   /// Throws InputError if the folder's manifest is not that of this study and program.

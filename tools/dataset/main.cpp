@@ -24,15 +24,19 @@ namespace {
 
 /// Begins a dataset's folder, after all patients have been looked into. Another process may have done so already.
 void begin(const Study& study, const std::vector<StudyPatient>& patients, const DatasetFolder& folder) {
-  if (!folder.has_begun()) check_patients(study, patients);
+  if (folder.has_begun()) return folder.check_is_of(study);
+  folder.check_may_begin();
+  check_patients(study, patients);
   folder.begin(study, patients);
 }
 
 int plan(const std::string& study_file, const std::string& path) {
   const Study study = read_study(study_file);
   const std::vector<StudyPatient> patients = patients_of(study);
+  const DatasetFolder folder(path);
+  folder.has_begun() ? folder.check_is_of(study) : folder.check_may_begin();
   check_patients(study, patients);
-  DatasetFolder(path).begin(study, patients);
+  folder.begin(study, patients);
   std::printf("%s in %s of %s\n", count_of(study.images, "image").c_str(), count_of(study.shards(), "shard").c_str(),
               count_of(patients.size(), "patient").c_str());
   for (const StudyPatient& patient : patients) {
@@ -52,7 +56,11 @@ int make(const std::string& study_file, const std::string& path, const std::stri
   const std::string listed = shards.empty() ? "0-" + std::to_string(study.shards() - 1) : shards;
   const std::vector<std::uint32_t> all = read_shard_list("--shards", listed, study.shards());
   begin(study, patients, folder);
-  make_shards(study, patients, folder, part_of(all, rank), [&](const MadeShard& made) {
+  const std::vector<std::uint32_t> part = part_of(all, rank);
+  if (std::ranges::all_of(part, [&](std::uint32_t shard) { return folder.has_shard(shard); }))
+    std::printf("%s: there already\n",
+                part.empty() ? "no shard of this process" : count_of(part.size(), "shard").c_str());
+  make_shards(study, patients, folder, part, [&](const MadeShard& made) {
     std::printf("shard %u: %s of %s, %.0f per hour\n", made.shard, count_of(made.images, "image").c_str(),
                 made.patient.c_str(), 3600 * made.images / made.seconds);
     std::fflush(stdout);

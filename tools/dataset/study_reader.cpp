@@ -95,7 +95,9 @@ StudyCase read_case_of_study(const TomlTable& table, const std::filesystem::path
   const bool varies = std::any_of(subject.options.begin(), subject.options.end(), [](const PhantomOption& option) {
     return option.range || option.choices.size() > 1;
   });
-  if (subject.patients > 1 && !varies)
+  if (subject.patients > 1 && !built_in)
+    table.report("patients", "only the built-in patient can be drawn several times", "remove this key");
+  else if (subject.patients > 1 && !varies)
     table.report("patients", "several patients would all be the same one",
                  "give an option under 'phantom' a range or \"either\", or ask for one patient");
   return subject;
@@ -196,8 +198,11 @@ Study read_study(const std::filesystem::path& file) {
     check_unique(table, table.has("name") ? "name" : "case", study.cases.back().name, case_names);
   }
   for (const TomlTable& table : root.tables("probe", kMaxTables)) {
+    const std::size_t mistakes = document.mistakes().size();
     study.probes.push_back(read_probe_of_study(table));
-    check_unique(table, "name", study.probes.back().probe.name, names_of_probes);
+    // In place of an unknown name stands the first one.
+    if (document.mistakes().size() == mistakes)
+      check_unique(table, "name", study.probes.back().probe.name, names_of_probes);
   }
   const std::vector<TomlTable> pose_tables = root.tables("poses", kMaxTables);
   for (const TomlTable& table : pose_tables) {

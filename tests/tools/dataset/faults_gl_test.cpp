@@ -89,7 +89,7 @@ TEST_CASE("what cannot be done ends in one sentence and code 2, and leaves nothi
       {"make wrong.toml new", "wrong.toml: 6 problems; correct them:"},
       {"make other.toml set", "this folder holds the dataset of another study"},
       {"make study.toml set --shards 6", "--shards: there is no shard 6 of 6"},
-      {"make study.toml study.toml/set", "study.toml/set: the folder cannot be made"},
+      {"make study.toml study.toml/set", "study.toml/set: the folder cannot be written"},
       {"status nowhere", "nowhere: it is not the folder of a dataset: manifest.json is missing; begin one"},
       {"merge nowhere set", "nowhere: it is not the folder of a dataset: manifest.json is missing; begin one"},
       {"check study.toml", "study.toml: it is not the folder of a dataset: manifest.json is missing"},
