@@ -21,6 +21,11 @@ Pose rigid(const double* rows, const std::string& place) {
 
 }  // namespace
 
+void refuse_array(const char* name) {
+  PyErr_Clear();
+  throw InputError(name, "", "it is not an array of real numbers", "give a NumPy array, or lists of equal length");
+}
+
 py::array_t<double> array_of(const glm::dmat4& matrix) {
   py::array_t<double> array({4, 4});
   for (int row = 0; row < 4; ++row)
@@ -28,14 +33,16 @@ py::array_t<double> array_of(const glm::dmat4& matrix) {
   return array;
 }
 
-Pose pose_of(const Doubles& matrix) {
+Pose pose_of(const py::object& given) {
+  const auto matrix = array_from<Doubles>(given, "pose");
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4)
     throw InputError("pose", "", "it is an array of " + shape_of(matrix) + ", not of 4 x 4",
                      "give the matrix patient_from_probe");
   return rigid(matrix.data(), "");
 }
 
-std::vector<Pose> poses_of(const Doubles& matrices) {
+std::vector<Pose> poses_of(const py::object& given) {
+  const auto matrices = array_from<Doubles>(given, "poses");
   if (matrices.ndim() != 3 || matrices.shape(1) != 4 || matrices.shape(2) != 4)
     throw InputError("poses", "", "they are an array of " + shape_of(matrices) + ", not of N x 4 x 4",
                      "give a matrix patient_from_probe for each");

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@
 namespace insonate::python {
 
 namespace py = pybind11;
+
+/// Throws the InputError of array_from(), and drops the error that Python has set.
+[[noreturn]] void refuse_array(const char* name);
 
 /// Returns an array that owns the values, without copying them.
 template <typename T>
@@ -40,12 +44,24 @@ py::array_t<T> shared_array(const std::vector<T>& values, const std::vector<py::
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// Returns the array of real numbers that an object of Python stands for. Throws InputError, which names `name`, if it
+/// stands for none.
+template <typename Array>
+Array array_from(const py::object& given, const char* name) {
+  const py::array as_given = py::array::ensure(given);
+  const bool is_real = as_given && std::string_view("biuf").find(as_given.dtype().kind()) != std::string_view::npos;
+  if (!is_real) refuse_array(name);
+  Array numbers = Array::ensure(as_given);
+  if (!numbers) refuse_array(name);
+  return numbers;
+}
+
 /// Returns a 4 x 4 matrix, row by row.
 py::array_t<double> array_of(const glm::dmat4& matrix);
 
 /// Reads one pose, a 4 x 4 matrix. Throws InputError for another shape, and for a matrix that is not rigid.
-Pose pose_of(const Doubles& matrix);
+Pose pose_of(const py::object& matrix);
 /// Reads poses, an N x 4 x 4 array. Throws InputError in the same way, and names the pose.
-std::vector<Pose> poses_of(const Doubles& matrices);
+std::vector<Pose> poses_of(const py::object& matrices);
 
 }  // namespace insonate::python

@@ -27,8 +27,11 @@ void bind_similarity(pybind11::module_& module);
 /// Returns the probe that a name or a Probe stands for. Throws InputError for an unknown name.
 Probe probe_of(const pybind11::object& given);
 
-/// Returns the number that an object of Python or NumPy is. Throws InputError, which names `name`, if it is none.
-double number_of(const pybind11::handle& given, const std::string& of, const std::string& name);
+/// Returns the number that an object of Python or NumPy is. Throws InputError if it is none.
+/// @param of, name  whose number, in the error
+/// @param wanted    what to give
+double number_of(const pybind11::handle& given, const std::string& of, const std::string& name,
+                 const std::string& wanted = "a number");
 /// Returns the case that an object is. Throws TypeError for other objects.
 CasePtr case_of(const pybind11::object& given);
 

@@ -17,7 +17,13 @@ std::vector<py::ssize_t> shape_of(const Grid& grid) {
   return {grid.size.z, grid.size.y, grid.size.x};
 }
 
-std::shared_ptr<HeldCase> opened(const std::filesystem::path& path) {
+std::shared_ptr<HeldCase> opened(const py::object& given) {
+  std::filesystem::path path;
+  try {
+    path = given.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("the path is " + std::string(py::repr(given)) + ", which names no file or folder");
+  }
   const py::gil_scoped_release without_lock;
   return std::make_shared<HeldCase>(HeldCase{open_case(path), path.string()});
 }
@@ -31,7 +37,7 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
     else if (py::isinstance<py::str>(value))
       options.emplace_back(name, value.cast<std::string>());
     else
-      options.emplace_back(name, exact_text(number_of(value, "phantom", name)));
+      options.emplace_back(name, exact_text(number_of(value, "phantom", name, "True, False, a number or a text")));
   }
   const py::gil_scoped_release without_lock;
   const std::filesystem::path recipe = assets_folder() / "phantoms" / "abdomen.toml";
@@ -40,14 +46,14 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
 
 }  // namespace
 
-double number_of(const py::handle& given, const std::string& of, const std::string& name) {
+double number_of(const py::handle& given, const std::string& of, const std::string& name, const std::string& wanted) {
   try {
     if (PyNumber_Check(given.ptr()) && !py::isinstance<py::array>(given))
       return py::float_(py::reinterpret_borrow<py::object>(given)).cast<double>();
   } catch (const py::error_already_set&) {
   }
-  throw InputError(of, "", "'" + name + "' is " + std::string(py::repr(given)) + ", which is not a number",
-                   "give a number");
+  throw InputError(of, "", "'" + name + "' is " + std::string(py::repr(given)) + ", which cannot be used",
+                   "give " + wanted);
 }
 
 CasePtr case_of(const py::object& given) {

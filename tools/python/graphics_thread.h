@@ -34,13 +34,16 @@ public:
     if (object_) destroy_on_graphics_thread(std::move(object_));
     object_.reset();
   }
-  bool is_open() const { return object_ != nullptr; }
-
-  /// Calls `use` with the object. Throws std::runtime_error if it is closed.
+  /// Throws std::runtime_error if it is closed.
   /// @param name  of the object in that error
+  void check_is_open(const char* name) const {
+    if (!object_) throw std::runtime_error(std::string("the ") + name + " is closed; open a new one");
+  }
+
+  /// Calls `use` with the object. Throws what check_is_open() throws.
   template <typename Use>
   void with(const char* name, const Use& use) {
-    if (!object_) throw std::runtime_error(std::string("the ") + name + " is closed; open a new one");
+    check_is_open(name);
     // Another thread may close it meanwhile; the last one that holds it lets go of it on the graphics thread.
     std::shared_ptr<T> held = object_;
     on_graphics_thread([&] {

@@ -27,13 +27,13 @@ using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 /// Compares an ultrasound image with images of model W.
 class SimilarityBinding {
 public:
-  SimilarityBinding(const CasePtr& held, const Floats& ultrasound, const py::object& given,
-                    std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings_file,
-                    std::optional<int> patch) {
+  SimilarityBinding(const CasePtr& held, const py::object& picture, const py::object& given, const py::object& depth_mm,
+                    const std::optional<std::filesystem::path>& settings_file, std::optional<int> patch) {
+    const auto ultrasound = array_from<Floats>(picture, "ultrasound");
     if (ultrasound.ndim() != 2)
       throw InputError("ultrasound", "", "it is not an array of rows by columns", "give one grey image");
     const Probe probe = probe_of(given);
-    const double depth = depth_mm.value_or(probe.depth_mm);
+    const double depth = depth_mm.is_none() ? probe.depth_mm : number_of(depth_mm, "ImageSimilarity", "depth_mm");
     gl::check_probe("ImageSimilarity", probe, depth);
     WeinSettings settings = settings_file ? read_wein_settings(*settings_file) : WeinSettings{};
     settings.image_width = int(ultrasound.shape(1));
@@ -67,7 +67,7 @@ public:
 
   void close() { simulator_.close(); }
 
-  py::array_t<float> similarity(const Doubles& matrices) {
+  py::array_t<float> similarity(const py::object& matrices) {
     const std::vector<Pose> poses = poses_of(matrices);
     std::vector<float> values;
     simulator_.with("comparison", [&](gl::WeinSimulator& simulator) { values = simulator.similarity(poses); });
@@ -82,8 +82,8 @@ private:
 
 void bind_similarity(py::module_& module) {
   py::class_<SimilarityBinding>(module, "ImageSimilarity", doc("ImageSimilarity"))
-      .def(py::init([](const py::object& held, const Floats& ultrasound, const py::object& probe,
-                       std::optional<double> depth_mm, const std::optional<std::filesystem::path>& settings,
+      .def(py::init([](const py::object& held, const py::object& ultrasound, const py::object& probe,
+                       const py::object& depth_mm, const std::optional<std::filesystem::path>& settings,
                        std::optional<int> patch) {
              return std::make_unique<SimilarityBinding>(case_of(held), ultrasound, probe, depth_mm, settings, patch);
            }),

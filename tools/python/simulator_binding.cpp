@@ -27,6 +27,10 @@ SettingValue setting_value(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   try {
+    if (py::isinstance<py::array>(value) && value.cast<py::array>().ndim() > 0) {
+      const auto numbers = array_from<Doubles>(py::reinterpret_borrow<py::object>(value), "settings");
+      if (numbers.ndim() == 1) return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
+    }
     // Of NumPy too, whose numbers are none of Python's types.
     if (PyIndex_Check(value.ptr())) return py::int_(py::reinterpret_borrow<py::object>(value)).cast<std::int64_t>();
     if (PyNumber_Check(value.ptr()) && !py::isinstance<py::array>(value))
@@ -62,19 +66,20 @@ public:
       gl::upload_ct(case_->source, volume.grid, [&] { simulator.set_volume(volume, tissues()); });
     });
     if (patient.views.empty()) {
-      set_probe(py::str("curvilinear"), std::nullopt);
+      set_probe(py::str("curvilinear"), py::none());
     } else {
       const ReferenceView& view = patient.views.front();
-      set_probe(py::str(view.probe), view.depth_mm);
+      set_probe(py::str(view.probe), py::float_(view.depth_mm));
       state_.pose = view.patient_from_probe;
     }
   }
 
   void close() { simulator_.close(); }
 
-  void set_probe(const py::object& given, std::optional<double> depth_mm) {
+  void set_probe(const py::object& given, const py::object& depth_mm) {
+    simulator_.check_is_open(kName);
     const Probe probe = probe_of(given);
-    const double depth = depth_mm.value_or(probe.depth_mm);
+    const double depth = depth_mm.is_none() ? probe.depth_mm : number_of(depth_mm, "Simulator", "depth_mm");
     gl::check_probe("Simulator", probe, depth);
     Settings settings = trainer_settings(probe.frequency_mhz, depth);
     settings.image_width = state_.settings.image_width;
@@ -91,6 +96,7 @@ public:
   }
 
   void set(const py::kwargs& changes) {
+    simulator_.check_is_open(kName);
     Settings settings = state_.settings;
     for (const auto& [key, value] : changes) {
       const std::string name = py::str(key);
@@ -105,7 +111,10 @@ public:
   }
 
   py::array_t<double> pose() const { return array_of(state_.pose.matrix()); }
-  void set_pose(const Doubles& matrix) { state_.pose = pose_of(matrix); }
+  void set_pose(const py::object& matrix) {
+    simulator_.check_is_open(kName);
+    state_.pose = pose_of(matrix);
+  }
 
   py::array_t<std::uint8_t> image() {
     const State now = state_;
@@ -118,7 +127,7 @@ public:
   }
 
   /// Draws all poses in one call, and computes their labels at will.
-  py::object images(const Doubles& matrices, bool with_labels) {
+  py::object images(const py::object& matrices, bool with_labels) {
     const std::vector<Pose> poses = poses_of(matrices);
     const State now = state_;
     const std::size_t pixels = std::size_t(now.settings.image_width) * std::size_t(now.settings.image_height);
@@ -161,6 +170,7 @@ public:
   }
 
   py::dict truth() {
+    simulator_.check_is_open(kName);
     const State now = state_;
     PictureTruth truth;
     {
@@ -226,9 +236,11 @@ public:
   double depth_mm() const { return state_.depth_mm; }
 
 private:
+  static constexpr const char* kName = "simulator";
+
   template <typename Use>
   void with(const Use& use) {
-    simulator_.with("simulator", [&](gl::Simulator& simulator) {
+    simulator_.with(kName, [&](gl::Simulator& simulator) {
       gl::within_device("settings", "take fewer samples, lines or pixels", [&] { use(simulator); });
     });
   }

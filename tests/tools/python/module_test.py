@@ -55,7 +55,9 @@ class Cases(unittest.TestCase):
             insonate.phantom(gallstnoe=True)
         with self.assertRaisesRegex(insonate.InputError, "there is no such file"):
             insonate.open_case("/nowhere.nii.gz")
-        with self.assertRaisesRegex(insonate.InputError, r"phantom: 'gallstone' is \[True\], which is not a number; give"):
+        with self.assertRaisesRegex(TypeError, "the path is None, which names no file"):
+            insonate.open_case(None)
+        with self.assertRaisesRegex(insonate.InputError, r"phantom: 'gallstone' is \[True\], which cannot be used; give True"):
             insonate.phantom(gallstone=[True])
         for other in (None, "abdomen"):
             with self.assertRaisesRegex(TypeError, "not a Case; take one from open_case"):
@@ -143,6 +145,11 @@ class Pictures(unittest.TestCase):
                               (np.full((4, 4), np.nan), "pose: ")):
             with self.assertRaisesRegex(insonate.InputError, sentence):
                 self.simulator.pose = bad
+        for bad in ("abc", [[1, 0], [0]], None, self.view.pose * 1j):
+            with self.assertRaisesRegex(insonate.InputError, "^pose: it is not an array of real numbers; give"):
+                self.simulator.pose = bad
+            with self.assertRaisesRegex(insonate.InputError, "^poses: it is not an array of real numbers; give"):
+                self.simulator.images(bad)
         np.testing.assert_array_equal(self.simulator.pose, self.view.pose)
         with self.assertRaisesRegex(insonate.InputError, "number 1: "):
             self.simulator.images(np.array([self.view.pose, mirrored]))
@@ -158,7 +165,7 @@ class Pictures(unittest.TestCase):
             insonate.Probe("linear", lines=0)
         with self.assertRaisesRegex(insonate.InputError, "Probe: 'lines' is 64.5, which is not a count"):
             insonate.Probe("linear", lines=64.5)
-        with self.assertRaisesRegex(insonate.InputError, "Probe: 'width_mm' is None, which is not a number"):
+        with self.assertRaisesRegex(insonate.InputError, "Probe: 'width_mm' is None, which cannot be used; give a number"):
             insonate.Probe("linear", width_mm=None)
         self.assertEqual(insonate.Probe("linear", width_mm=np.float32(50)).width_mm, 50)
         with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000; give a number from 0.1 to 1000"):
@@ -171,6 +178,12 @@ class Pictures(unittest.TestCase):
         self.assertEqual(self.simulator.settings["gain_db"], 3)
         with self.assertRaisesRegex(insonate.InputError, "None cannot be the value of a setting"):
             self.simulator.set(gain_db=None)
+        self.simulator.set(tgc_db=np.arange(8))
+        self.assertEqual(self.simulator.settings["tgc_db"], list(range(8)))
+        with self.assertRaisesRegex(insonate.InputError, "cannot be the value of a setting"):
+            self.simulator.set(tgc_db=np.zeros((2, 4)))
+        with self.assertRaisesRegex(insonate.InputError, "Simulator: 'depth_mm' is 'deep', which cannot be used"):
+            self.simulator.set_probe("linear", "deep")
         self.simulator.set(samples=before, gain_db=0)
 
     def test_threads_that_share_a_simulator_get_whole_pictures(self):
@@ -196,6 +209,10 @@ class Pictures(unittest.TestCase):
             pass
         with self.assertRaisesRegex(RuntimeError, "the simulator is closed"):
             other.image()
+        for use in (other.truth, lambda: other.set(gain_db=1), lambda: other.set_probe("linear"),
+                    lambda: setattr(other, "pose", np.eye(4))):
+            with self.assertRaisesRegex(RuntimeError, "the simulator is closed"):
+                use()
         other.close()
         small(self.simulator).image()  # which goes on
 
