@@ -12,6 +12,7 @@
 #include "app/trainer/trainer.h"
 #include "devices/live/steady_clock.h"
 #include "scenarios/words.h"
+#include "sim/files/new_folder.h"
 #include "sim/files/png.h"
 #include "sim/gl/headless_context.h"
 
@@ -91,6 +92,7 @@ int show_replay(Trainer& trainer, OffScreen& screen, const Options& options) {
 
 int run_headless(const Options& options) {
   const gl::HeadlessContext context;
+  refuse_unwritable(options.out / "ultrasound.png");
   Trainer trainer(options);
   trainer.open_from_options();
   trainer.finish_loading();

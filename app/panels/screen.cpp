@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -132,6 +133,7 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
+  forget_old_toast(trainer);
   for (const Notice& notice : trainer.take_notices()) toast_.show(notice.text, notice.file);
   if (trainer.time_runs_on()) draw_time_runs_on(*trainer.session());
   draw_toast(trainer);
@@ -439,8 +441,17 @@ void Screen::note_unopened() {
   using namespace std::chrono_literals;
   if (!opening_.valid() || opening_.wait_for(0s) != std::future_status::ready) return;
   if (!opening_.get())
-    show_note(std::string("No program of this computer is set to open it. ") +
-              (is_page(opened_) ? "Open it in a browser: " : "It is ") + std::filesystem::absolute(opened_).string());
+    show_note(std::string("It could not be opened here. ") + (is_page(opened_) ? "Open it in a browser: " : "It is ") +
+              std::filesystem::absolute(opened_).string());
+}
+
+/// What was said about one page does not hold for the next.
+void Screen::forget_old_toast(const Trainer& trainer) {
+  const std::array<const void*, 5> pages{trainer.start_page(), trainer.learners_page(), trainer.check_page(),
+                                         trainer.replay(), trainer.session()};
+  const auto shown = std::ranges::find_if(pages, [](const void* page) { return page != nullptr; });
+  const void* const page = shown == pages.end() ? nullptr : *shown;
+  if (std::exchange(toast_page_, page) != page && !toast_.names_file()) toast_.hide();
 }
 
 /// A page that the person reads is not covered: the toast waits, unless that page is the swept volume's.

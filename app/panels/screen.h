@@ -176,6 +176,7 @@ private:
   void take_path(Trainer& trainer);
   Rect toast_place() const;
   void draw_toast(const Trainer& trainer);
+  void forget_old_toast(const Trainer& trainer);
   void show_on_desktop(const std::filesystem::path& path);
   void note_unopened();
   void ask_to_leave(Trainer& trainer, bool ends, const std::function<void(Trainer&)>& go_on);
@@ -216,7 +217,8 @@ private:
   LearnersPanel learners_panel_;
   CheckPanel check_panel_;
   Toast toast_;
-  std::future<bool> opening_;  ///< of opened_, by the desktop
+  const void* toast_page_ = nullptr;  ///< the page that was shown in the last frame
+  std::future<bool> opening_;         ///< of opened_, by the desktop
   std::filesystem::path opened_;
   /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.
   std::vector<Overlay> pages_;

@@ -11,14 +11,15 @@
 namespace insonate {
 namespace {
 
-constexpr Rgba8 kInk{240, 240, 240, 255}, kEdge{0, 0, 0, 255};
+/// A colour that no echo has: the report shows pictures smaller than they are.
+constexpr Rgba8 kInk{255, 214, 64, 255}, kEdge{0, 0, 0, 255};
 /// Of a picture 480 pixels high; they grow with it.
-constexpr double kArm = 6, kDotDistance = 6, kReferenceHeight = 480;
+constexpr double kArm = 9, kDotDistance = 9, kReferenceHeight = 480;
 
 /// Fills a square with a dark edge, so that it is seen on bright echoes.
 class Pen {
 public:
-  Pen(Image<Rgba8>& picture, double scale) : picture_(picture), half_(std::max(0, int(std::lround(scale / 2)))) {}
+  Pen(Image<Rgba8>& picture, double scale) : picture_(picture), half_(int(scale)) {}
 
   void edge(const glm::dvec2& at) { fill(at, half_ + 1, kEdge); }
   void ink(const glm::dvec2& at) { fill(at, half_, kInk); }

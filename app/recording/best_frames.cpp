@@ -1,5 +1,6 @@
 #include "app/recording/best_frames.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -24,17 +25,46 @@ std::vector<Action> placed_in(const std::optional<Pose>& picture, const PictureT
 
 }  // namespace
 
+// Returns the frames one below the other, with a gap.
+Image<Rgba8> BestFrames::stacked(const std::vector<Kept>& kept) {
+  constexpr int kGap = 12;
+  constexpr Rgba8 kBetween{255, 255, 255, 255};  // as the report's paper
+  int width = 0, height = -kGap;
+  for (const Kept& one : kept) {
+    width = std::max(width, one.frame.width);
+    height += one.frame.height + kGap;
+  }
+  Image<Rgba8> all(width, height, kBetween);
+  int top = 0;
+  for (const Kept& one : kept) {
+    for (int y = 0; y < one.frame.height; ++y)
+      for (int x = 0; x < one.frame.width; ++x) all.at(x, top + y) = one.frame.at(x, y);
+    top += one.frame.height + kGap;
+  }
+  return all;
+}
+
+// The picture of this step that was kept when it was frozen here; null if there is none.
+const BestFrames::Kept* BestFrames::kept_of(const Session& session, const std::optional<Pose>& picture) const {
+  const auto of_step = frames_.find(session.runner()->live().step);
+  if (session.attempt() != attempt_ || !picture || of_step == frames_.end()) return nullptr;
+  const auto found = std::ranges::find(of_step->second, picture, &Kept::picture);
+  return found == of_step->second.end() ? nullptr : &*found;
+}
+
 bool BestFrames::due(const Session& session, const PictureTools& tools) const {
   if (!session.runner()) return false;
   constexpr double kStep = 0.1;  // of the hold
   const LiveExam& live = session.runner()->live();
-  if (session.attempt() != attempt_ || live.step != step_) return live.hold_share > 0;
-  if (live.hold_share > share_ + kStep) return true;
   const std::optional<Pose> picture = session.frozen_picture();
-  if (!picture || live.finished || tools.free_choice()) return false;
   const std::vector<Action> placed = placed_in(picture, tools);
-  // What is taken back leaves the kept picture; another picture replaces it once something is placed there.
-  return placed != placed_ && (picture == picture_ || !placed.empty());
+  const Kept* kept = kept_of(session, picture);
+  // What is taken back leaves its picture.
+  if (!live.finished && !tools.free_choice() && placed != (kept ? kept->placed : std::vector<Action>())) return true;
+  if (session.attempt() != attempt_ || live.step != step_) return live.hold_share > 0;
+  const auto of_step = frames_.find(step_);
+  const bool is_worked_in = of_step != frames_.end() && !of_step->second.front().placed.empty();
+  return !is_worked_in && live.hold_share > share_ + kStep;
 }
 
 void BestFrames::keep(const Session& session, const PictureTools& tools, const Pictures& pictures) {
@@ -43,11 +73,13 @@ void BestFrames::keep(const Session& session, const PictureTools& tools, const P
   forget_older(session);
   step_ = live.step;
   share_ = live.hold_share;
-  Image<Rgba8> frame = mirrored(read_back(*pictures.ultrasound()));
-  picture_ = session.frozen_picture();
-  placed_ = placed_in(picture_, tools);
-  draw_annotations(frame, pictures.geometry(), placed_);
-  frames_[live.step] = std::move(frame);
+  Kept now{mirrored(read_back(*pictures.ultrasound())), session.frozen_picture(), {}};
+  now.placed = placed_in(now.picture, tools);
+  draw_annotations(now.frame, pictures.geometry(), now.placed);
+  std::vector<Kept>& kept = frames_[live.step];
+  std::erase_if(kept, [&](const Kept& before) { return before.placed.empty() || before.picture == now.picture; });
+  // A picture in which nothing is placed stands for the step as long as there is no other.
+  if (kept.empty() || !now.placed.empty()) kept.push_back(std::move(now));
 }
 
 void BestFrames::forget_older(const Session& session) {
@@ -58,7 +90,8 @@ void BestFrames::forget_older(const Session& session) {
 
 std::vector<ReportPicture> BestFrames::report_pictures(const Session& session, Pictures& pictures) const {
   std::vector<ReportPicture> shown;
-  for (const auto& [step, frame] : frames_) shown.push_back(report_picture(step, ReportPicture::Kind::best, frame));
+  for (const auto& [step, kept] : frames_)
+    shown.push_back(report_picture(step, ReportPicture::Kind::best, stacked(kept)));
   const std::vector<StepResult>& steps = session.result()->steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const ReferenceView* view = session.loaded_case().subject.find_view(steps[i].view);

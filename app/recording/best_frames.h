@@ -13,11 +13,11 @@
 namespace insonate {
 
 /// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a step
-/// that measures, points or names it keeps the last frozen picture that was worked in, with what was placed in it.
+/// that measures, points or names it keeps every frozen picture that was worked in, with what was placed in it.
 class BestFrames {
 public:
   /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for, or
-  /// something else is placed in it: draw, then keep().
+  /// something else is placed in a frozen picture: draw, then keep().
   /// @param tools  must have seen the session's current state
   bool due(const Session& session, const PictureTools& tools) const;
   /// Keeps the picture that was drawn last, marker on the left.
@@ -25,18 +25,24 @@ public:
   /// Forgets frames of attempts before the session's.
   void forget_older(const Session& session);
 
-  /// Returns the last step's; nullptr when no view was held.
-  const Image<Rgba8>* last() const { return frames_.empty() ? nullptr : &frames_.rbegin()->second; }
-  /// Returns for the report each step's best frame, and what the step's view should look like.
+  /// Returns the last step's newest; nullptr when no view was held.
+  const Image<Rgba8>* last() const { return frames_.empty() ? nullptr : &frames_.rbegin()->second.back().frame; }
+  /// Returns for the report each step's frames, one below the other, and what the step's view should look like.
   std::vector<ReportPicture> report_pictures(const Session& session, Pictures& pictures) const;
 
 private:
-  std::map<std::size_t, Image<Rgba8>> frames_;  ///< by step
-  int attempt_ = 0;                             ///< whose frames these are; 0 for none
-  std::size_t step_ = 0;                        ///< of the newest
-  double share_ = 0;                            ///< of the hold, when it was kept
-  std::optional<Pose> picture_;                 ///< of the newest, if it was frozen
-  std::vector<Action> placed_;                  ///< in the newest
+  struct Kept {
+    Image<Rgba8> frame;
+    std::optional<Pose> picture;  ///< if it was frozen
+    std::vector<Action> placed;   ///< in it
+  };
+  static Image<Rgba8> stacked(const std::vector<Kept>& kept);
+  const Kept* kept_of(const Session& session, const std::optional<Pose>& picture) const;
+
+  std::map<std::size_t, std::vector<Kept>> frames_;  ///< by step, never empty
+  int attempt_ = 0;                                  ///< whose frames these are; 0 for none
+  std::size_t step_ = 0;                             ///< of the newest
+  double share_ = 0;                                 ///< of the hold, when it was kept
 };
 
 }  // namespace insonate

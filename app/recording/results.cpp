@@ -46,6 +46,8 @@ Attempt finished_attempt(const Session& session, const CaseSource& source, const
 }
 
 ReportPicture report_picture(std::size_t step, ReportPicture::Kind kind, const Image<Rgba8>& ultrasound) {
+  const auto is_grey = [](const Rgba8& pixel) { return pixel[0] == pixel[1] && pixel[0] == pixel[2]; };
+  if (!std::ranges::all_of(ultrasound.pixels, is_grey)) return {step, kind, png_bytes(ultrasound)};
   Image<std::uint8_t> grey(ultrasound.width, ultrasound.height);
   std::transform(ultrasound.pixels.begin(), ultrasound.pixels.end(), grey.pixels.begin(),
                  [](const Rgba8& pixel) { return pixel[0]; });

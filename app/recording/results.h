@@ -19,7 +19,7 @@ Attempt finished_attempt(const Session& session, const CaseSource& source, const
 /// Returns the session's exam as a sitting to begin in a database.
 Sitting sitting_of(const Session& session, const CaseSource& source, const std::string& learner);
 
-/// Returns an ultrasound picture, whose colours are greys, in the form that a report stores.
+/// Returns an ultrasound picture in the form that a report stores: grey unless something is drawn into it in colour.
 ReportPicture report_picture(std::size_t step, ReportPicture::Kind kind, const Image<Rgba8>& ultrasound);
 
 /// Returns the path of the user's own results database: $XDG_DATA_HOME/insonate/results.db, else

@@ -7,30 +7,39 @@
 #include <utility>
 
 #include "scenarios/guidance.h"
+#include "sim/core/text.h"
 
 namespace insonate {
 namespace {
 
-/// Returns the arrow keys of a slide: the one of its larger part, and a second one if that part is at least half as
-/// large.
-std::string arrows(const glm::dvec2& around_and_up_mm) {
-  const auto& [around, up] = std::pair{around_and_up_mm.x, around_and_up_mm.y};
-  const std::string across = around > 0 ? "\u2192" : "\u2190", along = up > 0 ? "\u2191" : "\u2193";
-  const bool both = std::min(std::abs(around), std::abs(up)) >= std::max(std::abs(around), std::abs(up)) / 2;
-  if (std::abs(around) > std::abs(up)) return both ? across + " " + along : across;
-  return both ? along + " " + across : along;
+/// A slide as its arrow keys make it, and the way in words: the key of its larger part, and a second one if that part
+/// is at least half as large.
+struct KeyedSlide {
+  std::string keys, way;
+};
+
+KeyedSlide keyed(const glm::dvec3& slide_mm, const Pose& pose) {
+  const auto along_key = [&](const glm::dvec2& key) {
+    const glm::dvec2 mm = ProbeHand::slide_in_patient(pose, key);
+    return pose.rotation * glm::dvec3(mm.x, 0, mm.y);
+  };
+  const glm::dvec3 around_key = along_key({1, 0});
+  const double around = glm::dot(slide_mm, around_key), up = glm::dot(slide_mm, along_key({0, 1}));
+  const glm::dvec3 to = around > 0 ? around_key : -around_key;  // to a side, or on the flank to front or back
+  const std::string side = std::abs(to.x) >= std::abs(to.y) ? (to.x > 0 ? "the patient's left" : "the patient's right")
+                                                            : (to.y > 0 ? "the back" : "the front");
+  const KeyedSlide across{around > 0 ? "\u2192" : "\u2190", side},
+      along{up > 0 ? "\u2191" : "\u2193", up > 0 ? "the head" : "the feet"};
+  const bool turned = std::abs(around) > std::abs(up);
+  const KeyedSlide &more = turned ? across : along, &less = turned ? along : across;
+  if (std::min(std::abs(around), std::abs(up)) < std::max(std::abs(around), std::abs(up)) / 2) return more;
+  return {more.keys + " " + less.keys, more.way + " and " + less.way};
 }
 
 /// Returns the keys of each part that in_words() mentions, as Keyboard moves the probe.
 std::vector<std::string> keys_of(const GuidingMove& move, const Pose& pose, const GuidingLimits& limits) {
   std::vector<std::string> keys;
-  if (glm::length(move.slide_mm) > limits.slide_mm) {
-    const auto along_face = [&](const glm::dvec2& key) {
-      const glm::dvec2 mm = ProbeHand::slide_in_patient(pose, key);
-      return glm::dot(move.slide_mm, pose.rotation * glm::dvec3(mm.x, 0, mm.y));
-    };
-    keys.push_back(arrows({along_face({1, 0}), along_face({0, 1})}));
-  }
+  if (glm::length(move.slide_mm) > limits.slide_mm) keys.push_back(keyed(move.slide_mm, pose).keys);
   if (std::abs(move.rotation_deg) > limits.turn_deg) keys.emplace_back(move.rotation_deg > 0 ? "E" : "Q");
   if (std::abs(move.tilt_deg) > limits.turn_deg) keys.emplace_back(move.tilt_deg > 0 ? "D" : "A");
   if (std::abs(move.rock_deg) > limits.turn_deg) keys.emplace_back(move.rock_deg > 0 ? "W" : "S");
@@ -51,7 +60,13 @@ void advise(Guiding& guiding, const Session& session, const Pose& pose, const Gu
     move.slide_mm = slide->way_mm;
   }
   guiding.advice = in_words(move, slid_to, limits);
-  if (session.holder() == Holder::learner) guiding.keys = keys_of(move, pose, limits);
+  guiding.slides = glm::length(move.slide_mm) > limits.slide_mm;
+  if (session.holder() != Holder::learner) return;
+  guiding.keys = keys_of(move, pose, limits);
+  // The words and the keys name the same ways.
+  if (guiding.slides)
+    guiding.advice.front() =
+        formatted("Slide %.0f mm towards ", glm::length(move.slide_mm)) + keyed(move.slide_mm, pose).way + ".";
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Guiding {
   const ReferenceView* view = nullptr;  ///< the view to find; belongs to the session's case or to the guide
   std::vector<std::string> advice;      ///< next movements, in order; empty if the reference is reached
   std::vector<std::string> keys;        ///< of each advice, such as "D"; empty unless the learner's hand has the probe
+  bool slides = false;                  ///< whether the first advice is to slide
   /// Between the centres of the two pictures, along the reference's normal; in a step, as the step measures it.
   double plane_distance_mm = 0;
   double plane_angle_deg = 0;

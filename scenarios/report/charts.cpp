@@ -38,13 +38,21 @@ struct Axes {
   double y(double value) const { return top + kChartHeight * (1 - std::clamp(value / most, 0.0, 1.0)); }
 };
 
-std::string curve(const Quantity& quantity, const Axes& axes, std::span<const TracePoint> trace) {
+/// Whether a step compares the picture with a view; in others, the values of a view are not known.
+bool has_view(const ExamResult& result, std::size_t step) {
+  return step < result.steps.size() && !result.steps[step].view.empty();
+}
+
+std::string curve(const Quantity& quantity, const Axes& axes, const ExamResult& result,
+                  std::span<const TracePoint> trace) {
   std::string path;
-  bool drawing = false;
+  std::optional<std::size_t> drawing;  // the step: the next one is compared with another view
   for (const TracePoint& point : trace) {
-    if (point.valid)
-      path += formatted("%c%.1f %.1f", drawing ? 'L' : 'M', axes.x(point.time_s), axes.y(quantity.value(point)));
-    drawing = point.valid;
+    const bool is_known = point.valid && (!quantity.mark || has_view(result, point.step));
+    const bool goes_on = drawing && (!quantity.mark || *drawing == point.step);
+    if (is_known)
+      path += formatted("%c%.1f %.1f", goes_on ? 'L' : 'M', axes.x(point.time_s), axes.y(quantity.value(point)));
+    drawing = is_known ? std::optional(point.step) : std::nullopt;
   }
   return "<path class='curve' d='" + path + "'/>";
 }
@@ -129,7 +137,7 @@ std::string time_charts_svg(const ExamResult& result, std::span<const TracePoint
   for (const Quantity& quantity : quantities) {
     axes.most = quantity.most;
     svg += steps_on(axes, result, quantity.mark) + untracked(axes, trace) + scale(quantity, axes, trace) +
-           curve(quantity, axes, trace);
+           curve(quantity, axes, result, trace);
     axes.top += kChartHeight + kChartGap;
   }
   axes.top -= kChartHeight + kChartGap;

@@ -215,10 +215,10 @@ StepInput Measure::input() const {
   }
   input.result = tool == Tool::ratio ? "Ratio" : "Volume";
   input.result_text = [this](const std::vector<Action>& placed) { return value_text(value(placed)); };
-  static constexpr std::array kAlong{", depth", ", width", ""};
+  static constexpr std::array kAlong{", depth", ", width", ""}, kOfVolume{"Length", "Depth", "Width"};
   for (int slot = 0; slot < slots(); ++slot) {
     if (tool == Tool::volume) {
-      input.slots.push_back("Length " + std::to_string(slot + 1));
+      input.slots.emplace_back(kOfVolume[std::size_t(slot)]);
     } else {
       const MeasureTarget& target = targets[std::size_t(slot)];
       input.slots.push_back(in_words(target.structures.front()) + kAlong[std::size_t(target.along)]);

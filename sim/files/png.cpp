@@ -55,18 +55,30 @@ Image<std::uint8_t> read_png(const std::filesystem::path& file) {
   return image;
 }
 
-std::string png_bytes(const Image<std::uint8_t>& grey) {
+namespace {
+
+std::string packed(int width, int height, png_uint_32 format, const void* pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  png.width = png_uint_32(grey.width);
-  png.height = png_uint_32(grey.height);
-  png.format = PNG_FORMAT_GRAY;
+  png.width = png_uint_32(width);
+  png.height = png_uint_32(height);
+  png.format = format;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
-  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, grey.pixels.data(), 0, nullptr))
+  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
     throw std::runtime_error(std::string("the picture cannot be packed (") + png.message + ")");
   bytes.resize(size);
   return bytes;
+}
+
+}  // namespace
+
+std::string png_bytes(const Image<std::uint8_t>& grey) {
+  return packed(grey.width, grey.height, PNG_FORMAT_GRAY, grey.pixels.data());
+}
+
+std::string png_bytes(const Image<Rgba8>& image) {
+  return packed(image.width, image.height, PNG_FORMAT_RGBA, image.pixels.data());
 }
 
 }  // namespace insonate

@@ -15,6 +15,7 @@ void write_png(const std::filesystem::path& file, const Image<Rgba8>& image);
 /// Returns a picture encoded as PNG, for storage elsewhere than in a file. Throws std::runtime_error if the encoding
 /// fails.
 std::string png_bytes(const Image<std::uint8_t>& grey);
+std::string png_bytes(const Image<Rgba8>& image);
 
 /// Reads a PNG of any kind as grey levels; colours become their luminance, and what is transparent becomes black.
 /// Throws InputError if it cannot be read, or has more than 8192 pixels along a side.

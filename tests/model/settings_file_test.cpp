@@ -268,7 +268,8 @@ TEST_CASE("model W's settings that cannot be used are refused with place and rea
       {"image_width = 0\nshadows = 1\n", "line 2", "'shadows' is neither true nor false"},
       {"similarity_patch = 3\n", "line 1, column 20",
        "'similarity_patch': a patch is 3 pixels wide, neither 0 nor 4 or more"},
-      {"similarity_patch = 4\nimage_width = 640\nimage_height = 480\n", "line 1, column 20", "at most 5376 patches"},
+      {"similarity_patch = 4\nimage_width = 640\nimage_height = 480\n", "line 1, column 20",
+       "at most 5376 of them in the picture"},
   };
   for (const auto& bad : cases) {
     const std::string why = why_refused(bad.text, read_wein);

@@ -142,7 +142,8 @@ int calibrate(const CalibrateRequest& request) {
   std::printf("Mark: press Enter, or a button of the tracker. u and Enter takes the last mark back.\n");
   for (const std::string& name : steps) {
     if (const std::string why = why_not_yet(name, calibration, given); !why.empty())
-      throw InputError(request.out.string(), name, why, "make the steps in the order that --help shows");
+      throw InputError(request.out.string(), name, why.substr(0, why.size() - 1),  // without its full stop
+                       "make the steps in the order that --help shows");
     const std::unique_ptr<SetupStep> step = begin_setup_step(name, calibration, given);
     std::printf("\n%s\n", step->view().title.c_str());
     if (name == "face" && given.drawing && !step->view().done)

@@ -84,6 +84,8 @@ void AttemptPanel::draw_fields(const Theme& theme, Rect where, LearnersPage& pag
   typed_author_ = author_.draw(theme, where, typed_author_, "Your id, if you like");
   ImGui::PopID();
   const bool blank = draft.find_first_not_of(' ') == std::string::npos;
+  draw_tooltip(theme, places["add_comment"],
+               "It is kept with the attempt. Reports that are written from now on have it.");
   if (button(theme, "add_comment", places["add_comment"], "Add comment", ButtonKind::normal, !blank)) {
     comment_.close();
     store();

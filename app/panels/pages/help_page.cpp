@@ -37,7 +37,7 @@ const std::vector<Key> kPatient{
 };
 const std::vector<Key> kViews{
     {"F5, F6, F7", "the usual views; slices along the patient's axes; four of one size"},
-    {"Double click a view", "make it large; again: back"},
+    {"Double click a view", "make it large; again, or Escape: back"},
     {"Drag the CT, O", "across the window, up and down the level; outlines of organs"},
     {"K, F8", "how the patient looks in 3D; effects of the picture, off and on, in practice"},
     {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},

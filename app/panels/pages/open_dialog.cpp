@@ -160,8 +160,9 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   const bool any = path_[0] != 0, is_here = path() == list_.folder;
   const bool enters = is_plain_folder(path()) && !(is_folder(wanted_) && is_here);
   places["open_path"] = buttons.take_right(theme.px(140));
-  const bool asked = button(theme, "open_path", places["open_path"], "Open  (Enter)", ButtonKind::primary,
-                            any && !(enters && is_here)) ||
+  const bool opens = enters || wanted_ == Wanted::anything || wanted_ == Wanted::checked;
+  const bool asked = button(theme, "open_path", places["open_path"], opens ? "Open  (Enter)" : "Choose  (Enter)",
+                            ButtonKind::primary, any && !(enters && is_here)) ||
                      confirmed_;
   if (enters && is_here) draw_tooltip(theme, places["open_path"], "Choose a file or a folder in the list first.");
   if (asked && enters)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "app/panels/scan/exam_panel.h"
+#include "sim/core/text.h"
 #include "tools/cli/about.h"
 
 namespace insonate::ui {
@@ -48,14 +50,19 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kText, "Insonate");
   sheet.take_top(theme.px(10));
   Rect line = sheet.take_top(theme.px(22));
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%.0f %%", 100 * progress.share);
-  draw_text(line.take_right(theme.px(60)), theme.text, colour::kMuted, percent, Align::right);
-  draw_text(line, theme.text, colour::kMuted, progress.what);
+  const bool counts = progress.share > 0;  // what does not report its progress only shows that it goes on
+  if (counts)
+    draw_text(line.take_right(theme.px(60)), theme.text, colour::kMuted, formatted("%.0f %%", 100 * progress.share),
+              Align::right);
+  draw_text(line, theme.text, colour::kMuted, progress.what + (counts ? "" : "\u2026"));
   sheet.take_top(theme.px(14));
   const Rect bar = sheet.take_top(theme.px(5));
   fill(bar, colour::kRaised, theme.px(2.5f));
-  fill({bar.x, bar.y, bar.w * float(std::clamp(progress.share, 0.0, 1.0)), bar.h}, colour::kAccent, theme.px(2.5f));
+  constexpr double kPart = 0.25, kRound_s = 1.6;  // of the bar that runs where nothing is counted
+  const double at =
+      counts ? 0 : (1 - kPart) * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * ImGui::GetTime() / kRound_s));
+  const double part = counts ? std::min(progress.share, 1.0) : kPart;
+  fill({bar.x + bar.w * float(at), bar.y, bar.w * float(part), bar.h}, colour::kAccent, theme.px(2.5f));
   Rect buttons = sheet.take_bottom(theme.px(38));
   bool stop = false;
   if (can_stop) {
@@ -69,10 +76,7 @@ bool draw_loading(const Theme& theme, const Rect& screen, const Loading::Progres
 
 bool draw_problem(const Theme& theme, const Rect& screen, const std::string& problem, bool ends) {
   const float width = theme.px(600), margin = theme.px(28);
-  const float text_height = theme.text
-                                ->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
-                                                problem.data() + problem.size())
-                                .y;
+  const float text_height = paragraph_height(theme.text, problem, width - 2 * margin);
   const float shown = std::min(text_height, screen.h * 0.5f);
   Rect sheet = begin_overlay(theme, screen, {width, shown + theme.px(160)});
   draw_text(sheet.take_top(theme.px(28)), theme.heading, colour::kAmber,

@@ -21,7 +21,7 @@ constexpr EffectWords kWords[] = {
     {"waves", "Waves", "Echoes add up as waves. Off: the sums of the paper that the model follows."},
     {"speckle", "Speckle", "The grain that scatterers smaller than the beam make. Off: their mean."},
     {"focused_beam", "Focused beam", "The beam is narrowest at its focus. Off: equally wide at every depth."},
-    {"slice_thickness", "Slice thickness", "The picture shows a slice of some mm. Off: a plane."},
+    {"slice_thickness", "Thick slice", "The picture shows a slice of some mm. Off: a plane."},
     {"reverberation", "Reverberation", "Sound bounces between strong surfaces: comet tails, tails of ribs."},
     {"face_reverberation", "A-lines", "Sound bounces between gas or bone and the probe's face."},
     {"mirror_image", "Mirror images", "Gas shows what lies before it once more behind it."},

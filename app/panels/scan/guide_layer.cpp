@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "app/panels/views/space_drawing.h"
 #include "scenarios/words.h"
@@ -51,9 +52,13 @@ std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guidin
   const std::string title = "Guide: " + (guiding.view->title.empty() ? guiding.view->name : guiding.view->title);
   draw_text(head.take_left(std::min(head.w, text_width(theme.strong, title))), theme.strong, colour::kText, title);
   head.take_left(theme.px(16));
-  draw_text(head, theme.text, colour::kMuted,
-            "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " + fixed(guiding.plane_angle_deg, 0) +
-                "\u00b0 off" + (counted ? "; costs no points, but the report says how long it was shown" : ""));
+  // Far away the planes' distance means little: two planes may be near where the probes are not.
+  std::string facts = guiding.slides ? ""
+                                     : "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " +
+                                           fixed(guiding.plane_angle_deg, 0) + "\u00b0 off";
+  if (counted)
+    facts += (facts.empty() ? "" : "; ") + std::string("costs no points, but the report says how long it was shown");
+  draw_text(head, theme.text, colour::kMuted, facts);
   if (guiding.there) {
     draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");
     return 0;
@@ -64,7 +69,9 @@ std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guidin
   for (std::size_t i = 0; i < guiding.advice.size(); ++i) {
     const float key = i < guiding.keys.size() ? theme.px(kKeyGap) + key_width(theme, guiding.keys[i]) : 0;
     const bool is_last = i + 1 == guiding.advice.size();
-    const float needed = text_width(theme.text, "then " + guiding.advice[i]) + 2 + key +
+    std::string advice = guiding.advice[i];
+    if (i > 0) advice.front() = char(std::tolower(static_cast<unsigned char>(advice.front())));
+    const float needed = text_width(theme.text, "then " + advice) + 2 + key +
                          (is_last ? 0 : theme.px(kBetween) + text_width(theme.text, "\u2026"));
     // One comes after the other, so what has no room comes later.
     if (i > 0 && needed > rest.w) {
@@ -73,7 +80,7 @@ std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guidin
     }
     const ImU32 ink = i == 0 ? colour::kText : colour::kMuted;
     if (i > 0) draw(theme.text, ink, "then ");
-    draw(i == 0 ? theme.strong : theme.text, ink, guiding.advice[i]);
+    draw(i == 0 ? theme.strong : theme.text, ink, advice);
     if (i < guiding.keys.size()) draw_key(theme, rest, ink, guiding.keys[i]);
     rest.take_left(theme.px(kBetween));
   }

@@ -124,9 +124,8 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
                                                      : std::string();
   if (problem.empty()) return;
   const float width = std::min(panel.w * 0.6f, theme.px(560)), margin = theme.px(12);
-  const ImVec2 text = theme.text->CalcTextSizeA(theme.text->FontSize, 3e38f, width - 2 * margin, problem.data(),
-                                                problem.data() + problem.size());
-  const float height = std::min(text.y + 2 * margin, panel.h * 0.5f);
+  const float text = paragraph_height(theme.text, problem, width - 2 * margin);
+  const float height = std::min(text + 2 * margin, panel.h * 0.5f);
   const Rect plate{panel.x + (panel.w - width) / 2, panel.y + panel.h - theme.px(58) - height, width, height};
   fill(plate, colour::kRaised, theme.px(4));
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);

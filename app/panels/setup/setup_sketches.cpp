@@ -124,8 +124,16 @@ std::vector<glm::dvec2> outline_of(const Probe& probe) {
 void ghost(const Theme& theme, const SpaceSketch& sketch, const Pose& patient_from_probe, bool grip_alone = false) {
   constexpr double kGrip_mm = -50;
   std::vector<ImVec2> line;
-  for (const glm::dvec2& point : outline_of(drawn_probe()))
-    if (!grip_alone || point.y < kGrip_mm) line.push_back(screen(sketch.at(patient_from_probe.point({point, 0}))));
+  // Points nearer to each other than the line is wide would give it spikes.
+  const auto is_apart = [&](const ImVec2& a, const ImVec2& b) {
+    return std::hypot(a.x - b.x, a.y - b.y) > theme.px(3);
+  };
+  for (const glm::dvec2& point : outline_of(drawn_probe())) {
+    if (grip_alone && point.y >= kGrip_mm) continue;
+    const ImVec2 at = screen(sketch.at(patient_from_probe.point({point, 0})));
+    if (line.empty() || is_apart(line.back(), at)) line.push_back(at);
+  }
+  while (!grip_alone && line.size() > 2 && !is_apart(line.back(), line.front())) line.pop_back();
   const ImDrawFlags closed = grip_alone ? ImDrawFlags_None : ImDrawFlags_Closed;
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddPolyline(line.data(), int(line.size()), colour::kBackground, closed, theme.px(4));

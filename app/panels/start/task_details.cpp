@@ -51,7 +51,7 @@ void draw_keys(const Theme& theme, Rect& rest, std::initializer_list<std::array<
   for (const auto& [key, meaning] : keys) {
     const float left = theme.text_px(170), height = paragraph_height(theme.text, meaning, rest.w - left);
     Rect line = rest.take_top(std::max(theme.px(28), height + theme.px(6)));
-    draw_text(Rect(line.take_left(left)).take_top(theme.px(20)), theme.strong, colour::kText, key);
+    draw_paragraph(line.take_left(left), theme.strong, colour::kText, key);
     draw_paragraph(line, theme.text, colour::kMuted, meaning);
   }
   rest.take_top(theme.px(12));
@@ -285,6 +285,7 @@ StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page, st
                  {"Arrow keys", "slide it: up to the head, right to the patient's left"},
                  {"E, Q", "rotate it"},
                  {"A, D", "tilt the beam"},
+                 {"W, S", "rock the beam"},
                  {"Space", "freeze the picture, and let it run again"},
                  {"F1", "all keys, at any time"}});
       break;

@@ -98,7 +98,7 @@ void LookPanel::draw_graph(const Theme& theme, const Rect& graph, PatientLook& l
   draw_histogram(graph, look.histogram());
   if (!look.shown()) {
     draw_on_plate(theme, {graph.x, graph.centre().y - theme.px(14), graph.w, theme.px(28)}, theme.text, colour::kMuted,
-                  "Choose one of the looks to edit it here", Align::centre);
+                  "Surfaces have no curve to edit: choose another look", Align::centre);
     return;
   }
   draw_curve(theme, graph, *look.shown());

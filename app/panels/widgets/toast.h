@@ -27,6 +27,8 @@ public:
   /// Lets the message's time stand still for this frame.
   void wait() { until_s_ += ImGui::GetIO().DeltaTime; }
   void hide() { text_.clear(); }
+  /// Whether the message is about a file, which stays where it is when the page changes.
+  bool names_file() const { return !file_.empty(); }
   /// Returns the message; empty if none is shown.
   const std::string& text() const { return text_; }
   /// Returns the time until the message goes (s), so that a window which draws only what changes draws once more then;

@@ -30,6 +30,49 @@ std::string shortened(ImFont* font, std::string_view text, float width) {
   return kEllipsis;
 }
 
+/// Returns the text with line ends that keep it within a width: at blanks and after slashes alone, so that numbers and
+/// names of files stay whole. What has neither and is wider is cut anywhere.
+std::string wrapped(ImFont* font, std::string_view words, float width) {
+  const std::string text = unbroken(words);
+  std::string lines;
+  float used = 0;  // of the last line
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = begin;
+    while (end < text.size() && text[end] == ' ') ++end;
+    while (end < text.size() && text[end] != ' ' && text[end] != '\n' && text[end] != '/') ++end;
+    if (end < text.size() && text[end] == '/') ++end;
+    const std::string_view piece(text.data() + begin, end - begin);
+    const float wide = size_of(font, piece).x;
+    if (used + wide <= width) {
+      lines += piece;
+      used += wide;
+    } else {
+      if (used > 0) lines += '\n';
+      used = 0;
+      for (std::size_t i = std::min(piece.find_first_not_of(' '), piece.size()); i < piece.size();) {
+        std::size_t next = i + 1;
+        while (next < piece.size() && (static_cast<unsigned char>(piece[next]) & 0xc0u) == 0x80u) ++next;
+        const std::string_view letter = piece.substr(i, next - i);
+        const float step = size_of(font, letter).x;
+        if (used > 0 && used + step > width) {
+          lines += '\n';
+          used = 0;
+        }
+        lines += letter;
+        used += step;
+        i = next;
+      }
+    }
+    if (end < text.size() && text[end] == '\n') {
+      lines += '\n';
+      used = 0;
+      ++end;
+    }
+    begin = end;
+  }
+  return lines;
+}
+
 /// Of a slider: the height of a line of text, and the least gap between name and value.
 constexpr float kSliderLine = 20, kSliderGap = 8;
 
@@ -138,15 +181,15 @@ void draw_text(const Rect& where, ImFont* font, ImU32 colour, std::string_view t
 }
 
 float paragraph_height(ImFont* font, std::string_view text, float width) {
-  return size_of(font, unbroken(text), width).y;
+  return size_of(font, wrapped(font, text, width)).y;
 }
 
 float draw_paragraph(const Rect& where, ImFont* font, ImU32 colour, std::string_view words) {
-  const std::string text = unbroken(words);
+  const std::string text = wrapped(font, words, where.w);
   const ImVec4 clip(where.x, where.y, where.x + where.w + 1, where.y + where.h);
   ImGui::GetWindowDrawList()->AddText(font, font->FontSize, where.min(), colour, text.data(), text.data() + text.size(),
-                                      where.w, &clip);
-  const float height = size_of(font, text, where.w).y;
+                                      0, &clip);
+  const float height = size_of(font, text).y;
   if (height > where.h + 1) cut_texts.emplace_back(words);
   return height;
 }

@@ -8,6 +8,7 @@
 #include "devices/sequence/sequence.h"
 #include "scenarios/result_json.h"
 #include "sim/files/files.h"
+#include "sim/files/png.h"
 #include "tests/app/trainer/trainer_folder.h"
 #include "tests/gl/test_context.h"
 
@@ -135,10 +136,64 @@ zero = 10
   const PlaneOnScreen plane({0, 0}, {double(kept->width), double(kept->height)}, trainer.pictures().geometry());
   const auto has_cross = [&](double x) {
     const glm::dvec2 at = plane.screen({x, 80});
-    return kept->at(int(at.x), int(at.y)) == Rgba8{240, 240, 240, 255};
+    return kept->at(int(at.x), int(at.y)) == Rgba8{255, 214, 64, 255};
   };
   CHECK(has_cross(15) == !taken_back);
   CHECK_FALSE(has_cross(-15));
+}
+
+TEST_CASE("the report shows every picture that a step measured in, also after a step whose view was held") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  std::string exam = kTinyScenario;
+  const std::size_t second_step = exam.find("[[step]]", exam.find("[[step]]") + 1);
+  exam.erase(second_step, exam.find("[[criterion]]") - second_step);
+  exam.insert(second_step, R"([[step]]
+kind = "measure"
+title = "Volume"
+instruction = "Measure it."
+view = "ball"
+tool = "volume"
+walls = "outer"
+[[step.target]]
+structures = ["ball"]
+[[step.criterion]]
+metric = "measurement_error_percent"
+full = 20
+zero = 60
+)");
+  folder.file("exam.toml", exam);
+  const auto placed = [](int slot, double x) { return Action{ActionKind::caliper, {double(slot), x, 40, x, 80}}; };
+  const ActionLog actions{{6.0, {{ActionKind::freeze}}},   {6.2, {placed(1, -15)}},       {6.4, {placed(2, -5)}},
+                          {6.6, {{ActionKind::unfreeze}}}, {7.6, {{ActionKind::freeze}}}, {7.8, {placed(3, 15)}},
+                          {8.4, {{ActionKind::go_on}}}};
+  folder.file("scan.igs.mha", write_sequence(samples_of(9, 60,
+                                                        [](double t) {
+                                                          return Pose{glm::dmat3(1.0), {0, 1, t > 7 ? 2 : 0}};
+                                                        }),
+                                             to_texts(actions)));
+  Options options = folder.options();
+  options.results = folder.path / "lab.db";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.start();
+  for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
+    trainer.update(i / 30.0);
+    if (trainer.best_frame_due()) {
+      trainer.draw(kSizes);
+      trainer.keep_best_frame();
+    }
+    trainer.write_results_if_due();
+  }
+  REQUIRE(trainer.result_files());
+  const Attempt attempt = ResultsDatabase::open(options.results).read(1);
+  std::vector<Image<std::uint8_t>> best;
+  for (const ReportPicture& picture : attempt.pictures)
+    if (picture.kind == ReportPicture::Kind::best) best.push_back(read_png(folder.file("picture.png", picture.png)));
+  REQUIRE(best.size() == 2);
+  CHECK(best[1].width == best[0].width);
+  CHECK(best[1].height > 2 * best[0].height);  // two pictures and a gap
 }
 
 TEST_CASE("a second attempt's report shows its own best frame, and none when the view was never held") {
@@ -168,6 +223,7 @@ TEST_CASE("a second attempt's report shows its own best frame, and none when the
       trainer.write_results_if_due();
     }
     REQUIRE(trainer.result_files());
+    CHECK_FALSE(trainer.best_frame_due());  // also when nothing was kept
     return read_file(trainer.result_files()->report);
   };
   // In its place beside the reference view.
