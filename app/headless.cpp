@@ -92,12 +92,12 @@ int show_replay(Trainer& trainer, OffScreen& screen, const Options& options) {
 
 int run_headless(const Options& options) {
   const gl::HeadlessContext context;
-  refuse_unwritable(options.out / "ultrasound.png");
   Trainer trainer(options);
   trainer.open_from_options();
   trainer.finish_loading();
   OffScreen screen(options.width, options.height);
   if (trainer.replay()) return show_replay(trainer, screen, options);
+  refuse_unwritable(options.out / "pictures");  // which come at the end
 
   const Session& session = *trainer.session();
   const double end_s = options.seconds > 0 ? options.seconds : session.runner() ? 0 : kFreeScan_s;

@@ -134,7 +134,7 @@ void LiveRegistrar::give_way(const Task& task) {
 
 LiveRegistrar::Needs LiveRegistrar::needs(bool is_wide, bool is_asked_for) const {
   Needs needs;
-  if (is_wide) needs.spread_mm = kMinSpread_mm;
+  if (is_wide) needs = {insonate::kMinImages, kMinSpread_mm};
   // A search that nobody has asked for takes its time, and few images may be most similar at a wrong place.
   if (is_wide && !is_asked_for) needs.images = std::min(std::size_t(settings_.search.slices), kImagesToSearch);
   return needs;

@@ -44,7 +44,7 @@ void declare_registration(CLI::App& arguments, RegistrationOptions& options) {
       ->check(CLI::Range(1.0, 90.0))
       ->capture_default_str();
   mode.add_option("--slices", options.settings.slices, "Use this many of the newest images, well spread")
-      ->check(CLI::Range(int(LiveRegistrar::kMinImages), 100))
+      ->check(CLI::Range(int(kMinImages), 100))
       ->capture_default_str();
   CLI::Option* no_refining = mode.add_flag_callback(
       "--no-refining", [&options] { options.refines = false; }, "Do not refine until the button is pressed");

@@ -76,7 +76,7 @@ std::string steps_on(const Axes& axes, const ExamResult& result, const std::opti
   for (const StepResult& step : result.steps) {
     if (step.judged_from_s && step.judged_to_s)
       svg += formatted("<rect class='%s' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>",
-                       step.outcome == StepOutcome::held ? "held" : "judged", axes.x(*step.judged_from_s), axes.top,
+                       is_done(step.outcome) ? "held" : "judged", axes.x(*step.judged_from_s), axes.top,
                        std::max(2.0, axes.x(*step.judged_to_s) - axes.x(*step.judged_from_s)), kChartHeight);
     if (step.start_s > 0 && step.outcome != StepOutcome::not_reached)
       svg += formatted("<line class='step' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", axes.x(step.start_s),

@@ -57,7 +57,7 @@ std::optional<ProbePath> path_of(const ExamResult& result, std::span<const Trace
     if (!step.judged_from_s) continue;
     const auto judged = std::find_if(trace.begin(), trace.end(),
                                      [&](const TracePoint& p) { return p.valid && p.time_s >= *step.judged_from_s; });
-    if (judged != trace.end()) path.spots.push_back({judged->face, step.outcome == StepOutcome::held});
+    if (judged != trace.end()) path.spots.push_back({judged->face, is_done(step.outcome)});
   }
   return path;
 }

@@ -427,7 +427,7 @@ std::optional<NumberRange> TomlTable::interval(std::string_view key, const Numbe
       report(key, in_quotes(key) + " goes beyond its limits", "write two numbers" + from_to(range));
       return std::nullopt;
     }
-    if (least && most && *least > *most) {
+    if (least && most && *least > *most && *most >= range.least && *least <= range.most) {
       report(key, in_quotes(key) + " begins with its larger number",
              "write [" + exact_text(*most) + ", " + exact_text(*least) + "]");
       return std::nullopt;

@@ -138,7 +138,6 @@ DatasetTissues dataset_tissues() {
 
 void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& patients) const {
   if (!has_begun()) {
-    check_may_begin();
     std::error_code error;
     fs::create_directories(path_ / "shards", error);
     if (error)
@@ -153,10 +152,11 @@ void DatasetFolder::begin(const Study& study, const std::vector<StudyPatient>& p
 void DatasetFolder::check_may_begin() const {
   std::error_code error;
   for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
-    if (const std::string name = entry->path().filename().string(); name != "shards" && !name.starts_with("."))
+    if (const std::string name = entry->path().filename().string();
+        name != "shards" && name != "manifest.json" && !name.starts_with("."))
       throw InputError(path_.string(), "", "the folder holds other files, such as " + in_quotes(name),
                        "name a new folder");
-  refuse_unwritable(path_);
+  refuse_unwritable(path_ / "shards");
 }
 
 bool DatasetFolder::has_begun() const {

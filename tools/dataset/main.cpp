@@ -57,9 +57,10 @@ int make(const std::string& study_file, const std::string& path, const std::stri
   const std::vector<std::uint32_t> all = read_shard_list("--shards", listed, study.shards());
   begin(study, patients, folder);
   const std::vector<std::uint32_t> part = part_of(all, rank);
-  if (std::ranges::all_of(part, [&](std::uint32_t shard) { return folder.has_shard(shard); }))
-    std::printf("%s: there already\n",
-                part.empty() ? "no shard of this process" : count_of(part.size(), "shard").c_str());
+  if (part.empty())
+    std::printf("this process has no shard to make\n");
+  else if (std::ranges::all_of(part, [&](std::uint32_t shard) { return folder.has_shard(shard); }))
+    std::printf("%s: there already\n", count_of(part.size(), "shard").c_str());
   make_shards(study, patients, folder, part, [&](const MadeShard& made) {
     std::printf("shard %u: %s of %s, %.0f per hour\n", made.shard, count_of(made.images, "image").c_str(),
                 made.patient.c_str(), 3600 * made.images / made.seconds);

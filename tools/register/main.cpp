@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
     if (start.landmark_error_mm)
       std::printf("Landmarks: fitted within %.1f mm (root mean square)%s.\n", *start.landmark_error_mm,
                   *start.landmark_error_mm > kContradicting_mm
-                      ? "; so they contradict each other: is each point of the CT in LPS, and that of the same line"
+                      ? "; they contradict each other: see that a line's points are of one landmark, the CT's in LPS"
                       : "");
     if (!read.transform.empty()) std::printf("Transform of the probe: %s.\n", read.transform.c_str());
     if (read.fan) std::printf("Found in the images: %s.\n", description(*read.fan).c_str());

@@ -224,7 +224,7 @@ std::vector<Frame> usable_frames(const RecordedScan& scan, const SweepInput& inp
   return all;
 }
 
-// Returns whether a file is a volume in a format that recordings have too, or in one that they do not have.
+// Returns true for NIfTI, and for NRRD or MetaImage without fields Seq_Frame.
 bool is_volume(const std::string& file) {
   std::string front(kFront, '\0');
   std::ifstream stream(file, std::ios::binary);

@@ -61,10 +61,10 @@ void AxesStep::ask(SetupView& view) const {
       "Turn the probe, still upright, until its marker points to the head. Mark.",
       "Lay the probe over so that its marker points up, away from the table. Mark."};
   static constexpr const char* kEnd[] = {
-      "Move it straight to the patient's right, a hand's length, without turning. Mark.",
-      "Move it straight up, a hand's length, without turning. Mark.",
-      "Move it straight to the head, a hand's length, without turning. Mark.",
-      "Move it straight up, a hand's length, without turning. Mark."};
+      "Move it straight to the patient's right, a hand's length (10 cm or more), without turning. Mark.",
+      "Move it straight up, a hand's length (10 cm or more), without turning. Mark.",
+      "Move it straight to the head, a hand's length (10 cm or more), without turning. Mark.",
+      "Move it straight up, a hand's length (10 cm or more), without turning. Mark."};
   view.share = double(ends_.size()) / 8;
   const std::size_t move = ends_.size() / 2;
   view.reading = ends_.size() % 2 == 1;

@@ -312,7 +312,7 @@ TEST_CASE("a wide search that is asked for begins when the images can tell one p
   wait_until(registrar, [](const LiveRegistrar::State& state) {
     return state.work == LiveRegistrar::Work::waiting && state.in_use == 20;
   });
-  CHECK(to_string(registrar.state().needs) == "6, of which two lie 25 mm apart");
+  CHECK(to_string(registrar.state().needs) == "8, of which two lie 25 mm apart");
   CHECK(registrar.state().problem.empty());
 
   // What is left of the images by then counts.
