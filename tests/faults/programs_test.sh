@@ -204,11 +204,11 @@ says 2 "lab.db: the database cannot be opened for writing" "${plain[@]}" "${scor
 says 2 "new.db: the database cannot be opened for writing" "${plain[@]}" "${score[@]}" --results "$closed/new.db"
 says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${phantom[@]}" "$closed/ball"
 says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${import[@]}" --out "$closed/patient"
-says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${dataset[@]}" plan "$study" "$closed/set"
+says 2 "the folder cannot be written (Permission denied)" "${plain[@]}" "${dataset[@]}" plan "$study" "$closed/set"
 says 2 "the folder cannot be written (Permission denied)" "${plain[@]}" "${register[@]}" "$closed/registration"
 says 2 "it cannot be written (Permission denied)" "${plain[@]}" "${watch[@]}" --record "$closed/run.igs.mha"
 says 2 "it cannot be written (Permission denied)" "${plain[@]}" "${raw[@]}" --record-raw "$closed/run.raw"
-says 2 "the folder cannot be made (Permission denied)" "${plain[@]}" "${trainer[@]}" --out "$closed/out"
+says 2 "the folder cannot be written (Permission denied)" "${plain[@]}" "${trainer[@]}" --out "$closed/out"
 XDG_CACHE_HOME=$closed/cache "${plain[@]}" "${patient[@]}" --out "$work/out" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
 [ "$(ls -A "$closed")" = lab.db ] || fail "something was written: $(ls -A "$closed")"
 

@@ -156,7 +156,7 @@ void DatasetFolder::check_may_begin() const {
         name != "shards" && name != "manifest.json" && !name.starts_with("."))
       throw InputError(path_.string(), "", "the folder holds other files, such as " + in_quotes(name),
                        "name a new folder");
-  refuse_unwritable(path_ / "shards");
+  refuse_unwritable(fs::exists(path_, error) ? path_ / "shards" : path_);
 }
 
 bool DatasetFolder::has_begun() const {

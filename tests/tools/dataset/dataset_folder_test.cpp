@@ -247,7 +247,7 @@ TEST_CASE("what cannot be written in a dataset's folder is said in a sentence") 
   const Set set;
   set.place.file("file", "x");
   CHECK_THROWS_WITH(DatasetFolder(set.place.path / "file" / "set").begin(Study(), {}),
-                    Contains("set: the folder cannot be written ("));
+                    Contains("set: the folder cannot be made ("));
   // A folder on another disk that has the name of a shard.
   const fs::path elsewhere = fs::path("/dev/shm") / ("insonate_dataset_test_" + std::to_string(getpid()));
   std::error_code no_such_disk;
