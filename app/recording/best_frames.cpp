@@ -44,26 +44,33 @@ Image<Rgba8> BestFrames::stacked(const std::vector<Kept>& kept) {
   return all;
 }
 
-// The picture of this step that was kept when it was frozen here; null if there is none.
-const BestFrames::Kept* BestFrames::kept_of(const Session& session, const std::optional<Pose>& picture) const {
+void BestFrames::Kept::show(std::vector<Action> in_it) {
+  placed = std::move(in_it);
+  frame = undrawn;
+  draw_annotations(frame, geometry, placed);
+}
+
+// The pictures of this step that are kept; null if there are none.
+const std::vector<BestFrames::Kept>* BestFrames::kept_of(const Session& session) const {
   const auto of_step = frames_.find(session.runner()->live().step);
-  if (session.attempt() != attempt_ || !picture || of_step == frames_.end()) return nullptr;
-  const auto found = std::ranges::find(of_step->second, picture, &Kept::picture);
-  return found == of_step->second.end() ? nullptr : &*found;
+  return session.attempt() != attempt_ || of_step == frames_.end() ? nullptr : &of_step->second;
 }
 
 bool BestFrames::due(const Session& session, const PictureTools& tools) const {
   if (!session.runner()) return false;
   constexpr double kStep = 0.1;  // of the hold
   const LiveExam& live = session.runner()->live();
-  const std::optional<Pose> picture = session.frozen_picture();
-  const std::vector<Action> placed = placed_in(picture, tools);
-  const Kept* kept = kept_of(session, picture);
-  // What is taken back leaves its picture.
-  if (!live.finished && !tools.free_choice() && placed != (kept ? kept->placed : std::vector<Action>())) return true;
+  const std::vector<Kept>* kept = kept_of(session);
+  const bool is_worked_in = kept && !kept->front().placed.empty();
+  if (!live.finished && !tools.free_choice()) {
+    // Work in one picture may replace, take back or clear what was placed in another.
+    const auto is_old = [&](const Kept& one) { return one.placed != placed_in(one.picture, tools); };
+    if (kept && std::ranges::any_of(*kept, is_old)) return true;
+    const std::optional<Pose> picture = session.frozen_picture();
+    if (!placed_in(picture, tools).empty() && (!kept || std::ranges::count(*kept, picture, &Kept::picture) == 0))
+      return true;
+  }
   if (session.attempt() != attempt_ || live.step != step_) return live.hold_share > 0;
-  const auto of_step = frames_.find(step_);
-  const bool is_worked_in = of_step != frames_.end() && !of_step->second.front().placed.empty();
   return !is_worked_in && live.hold_share > share_ + kStep;
 }
 
@@ -71,15 +78,26 @@ void BestFrames::keep(const Session& session, const PictureTools& tools, const P
   if (!pictures.ultrasound()) return;
   const LiveExam& live = session.runner()->live();
   forget_older(session);
+  std::vector<Kept>& kept = frames_[live.step];
+  for (Kept& one : kept) one.show(placed_in(one.picture, tools));
+  const std::optional<Pose> picture = session.frozen_picture();
+  std::vector<Action> placed = placed_in(picture, tools);
+  // A picture in which nothing is placed stands for the step as long as there is no other.
+  const bool is_better = live.step != step_ || live.hold_share > share_;
+  const bool stands_alone = std::ranges::all_of(kept, [](const Kept& one) { return one.placed.empty(); });
+  const bool is_new = std::ranges::count(kept, picture, &Kept::picture) == 0;
+  if (kept.empty() || (placed.empty() ? stands_alone && is_better : is_new)) {
+    Kept now{mirrored(read_back(*pictures.ultrasound())), {}, pictures.geometry(), picture, {}};
+    now.show(std::move(placed));
+    kept.push_back(std::move(now));
+  }
+  const bool any_placed = std::ranges::any_of(kept, [](const Kept& one) { return !one.placed.empty(); });
+  if (any_placed)
+    std::erase_if(kept, [](const Kept& one) { return one.placed.empty(); });
+  else
+    kept.erase(kept.begin(), kept.end() - 1);
   step_ = live.step;
   share_ = live.hold_share;
-  Kept now{mirrored(read_back(*pictures.ultrasound())), session.frozen_picture(), {}};
-  now.placed = placed_in(now.picture, tools);
-  draw_annotations(now.frame, pictures.geometry(), now.placed);
-  std::vector<Kept>& kept = frames_[live.step];
-  std::erase_if(kept, [&](const Kept& before) { return before.placed.empty() || before.picture == now.picture; });
-  // A picture in which nothing is placed stands for the step as long as there is no other.
-  if (kept.empty() || !now.placed.empty()) kept.push_back(std::move(now));
 }
 
 void BestFrames::forget_older(const Session& session) {

@@ -13,11 +13,11 @@
 namespace insonate {
 
 /// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a step
-/// that measures, points or names it keeps every frozen picture that was worked in, with what was placed in it.
+/// that measures, points or names it keeps every frozen picture in which something is placed, with that.
 class BestFrames {
 public:
   /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for, or
-  /// something else is placed in a frozen picture: draw, then keep().
+  /// something else is placed in a frozen picture, this one or an earlier one of the step: draw, then keep().
   /// @param tools  must have seen the session's current state
   bool due(const Session& session, const PictureTools& tools) const;
   /// Keeps the picture that was drawn last, marker on the left.
@@ -32,12 +32,15 @@ public:
 
 private:
   struct Kept {
-    Image<Rgba8> frame;
+    Image<Rgba8> undrawn, frame;  ///< without and with what is placed in it
+    ImageGeometry geometry;
     std::optional<Pose> picture;  ///< if it was frozen
     std::vector<Action> placed;   ///< in it
+
+    void show(std::vector<Action> in_it);
   };
   static Image<Rgba8> stacked(const std::vector<Kept>& kept);
-  const Kept* kept_of(const Session& session, const std::optional<Pose>& picture) const;
+  const std::vector<Kept>* kept_of(const Session& session) const;
 
   std::map<std::size_t, std::vector<Kept>> frames_;  ///< by step, never empty
   int attempt_ = 0;                                  ///< whose frames these are; 0 for none

@@ -245,10 +245,6 @@ void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request&
     guide_.forget_made();
     sweep_.stop();
     swept_.reset();
-    // As gain and depth, the window of one patient's CT is not the next one's.
-    const CaseSource& before = current_.source;
-    if (loaded_case_ && (before.ct != request.source.ct || before.case_folder != request.source.case_folder))
-      preferences_.ct.grey = WindowLevel();
   }
   loaded_case_ = std::move(loaded_case);
   current_ = request;

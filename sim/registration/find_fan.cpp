@@ -270,7 +270,7 @@ FanSearch as_probe(const Fitter& fitter, const Fan& fan, const glm::dvec2& mm) {
   for (const Probe& probe : probes())
     if (probe.kind == fan.kind) found.probe = probe;
   found.depth_mm = found.probe.depth_mm = fan.deep - fan.face;
-  check("depth", found.depth_mm, 20, 400, "mm");  // less is no scan of a body: its pixels are larger
+  check("depth", found.depth_mm, 20, 400, "mm");  // shallower ones have pixels of another size
   if (fan.kind == ProbeKind::linear) {
     found.probe.width_mm = 2 * fan.low_half;
   } else {

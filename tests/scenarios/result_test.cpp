@@ -178,6 +178,16 @@ TEST_CASE("the report draws the scan over time and in space, and needs no other 
   CHECK(report_html(one.result, one.trace) == html);
 
   CHECK(count(report_html(one.result, {}), "<svg") == 0);
+
+  // Where a step compares with no view, three of the curves have nothing to show: they do not fall to 0.
+  const auto first_curve = [](const std::string& page) {
+    const std::size_t at = page.find("class='curve' d='") + 17;
+    return page.substr(at, page.find('\'', at) - at);
+  };
+  CHECK_FALSE(first_curve(html).empty());
+  Scan without = scan(0);
+  for (StepResult& step : without.result.steps) step.view.clear();
+  CHECK(first_curve(report_html(without.result, without.trace)).empty());
 }
 
 TEST_CASE("the report shows the best picture of a step beside its reference view, and says whose attempt it was") {

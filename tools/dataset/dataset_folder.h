@@ -18,8 +18,7 @@ public:
   explicit DatasetFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// Makes the folder and writes the manifest, without shards. If there is one already, it stays. Throws InputError if
-  /// it is that of another study or another version of the program, or if the folder holds other files or cannot be
-  /// written.
+  /// it is that of another study or another version of the program, or if the folder cannot be written.
   void begin(const Study& study, const std::vector<StudyPatient>& patients) const;
   /// Throws InputError if a dataset cannot begin here: the folder holds other files, or cannot be written.
   void check_may_begin() const;

@@ -48,7 +48,8 @@ std::shared_ptr<HeldCase> made_phantom(const py::kwargs& given) {
 
 double number_of(const py::handle& given, const std::string& of, const std::string& name, const std::string& wanted) {
   try {
-    if (PyNumber_Check(given.ptr()) && !py::isinstance<py::array>(given))
+    const bool is_list = py::isinstance<py::array>(given) && given.cast<py::array>().ndim() > 0;
+    if (PyNumber_Check(given.ptr()) && !is_list)
       return py::float_(py::reinterpret_borrow<py::object>(given)).cast<double>();
   } catch (const py::error_already_set&) {
   }

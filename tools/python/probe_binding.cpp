@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/input_error.h"
@@ -17,8 +18,8 @@ namespace py = pybind11;
 const std::vector<std::string> kKinds{"linear", "curvilinear", "phased"};
 
 int whole(double number, const std::string& name) {
-  constexpr double kMost = 1e6;  // what a probe may have is checked afterwards
-  if (number == std::trunc(number) && std::abs(number) <= kMost) return int(number);
+  constexpr double kMost = 1e6;  // of what an int holds; what a probe may have is checked afterwards
+  if (number == std::trunc(number)) return int(std::clamp(number, -kMost, kMost));
   throw InputError("Probe", "", "'" + name + "' is " + number_text(number) + ", which is not a count",
                    "give a whole number");
 }

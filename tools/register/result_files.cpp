@@ -147,7 +147,11 @@ std::string verdict(const SweepRegistration& found) {
                                          " mm; where the truth was known, up to ten times that was measured.";
   std::string text = "Not converged: ";
   for (std::size_t i = 0; i < found.doubts.size(); ++i) text += (i > 0 ? ", and " : "") + found.doubts[i];
-  return text + ". Do not use this transform. A nearer start, a wider search or more images may help.";
+  const auto doubts = [&](const char* why) { return std::ranges::count(found.doubts, why) > 0; };
+  const char* const help = doubts(kNotSearched)                   ? "Search widely around the start."
+                           : doubts(kTooFew) || doubts(kTooClose) ? "Give more images, of a longer sweep."
+                                                                  : "A nearer start may help, or a longer sweep.";
+  return text + ". Do not use this transform. " + help;
 }
 
 std::string verdict(const RegistrationReport& report) {

@@ -49,7 +49,8 @@ std::array<Rect, 2> two_buttons(const Theme& theme, Rect row) {
 /// Draws keys and what they do.
 void draw_keys(const Theme& theme, Rect& rest, std::initializer_list<std::array<const char*, 2>> keys) {
   for (const auto& [key, meaning] : keys) {
-    const float left = theme.text_px(170), height = paragraph_height(theme.text, meaning, rest.w - left);
+    const float left = theme.text_px(170), height = std::max(paragraph_height(theme.strong, key, left),
+                                                             paragraph_height(theme.text, meaning, rest.w - left));
     Rect line = rest.take_top(std::max(theme.px(28), height + theme.px(6)));
     draw_paragraph(line.take_left(left), theme.strong, colour::kText, key);
     draw_paragraph(line, theme.text, colour::kMuted, meaning);

@@ -115,6 +115,15 @@ TEST_CASE("the guide names the keys of its advice, and they lead nearer, however
     REQUIRE(glm::distance(session.newest_pose()->translation, pose.translation) < 1e-6);
     for (std::size_t i = 0; i < guiding->keys.size(); ++i) {
       CAPTURE(guiding->advice[i], guiding->keys[i]);
+      // The words name as many ways as there are keys, and the same ones.
+      const auto says = [&](const char* words) { return guiding->advice[i].find(words) != std::string::npos; };
+      const auto has = [&](const char* key) { return guiding->keys[i].find(key) != std::string::npos; };
+      if (says("Slide")) {
+        CHECK(says("the head") == has("\u2191"));
+        CHECK(says("the feet") == has("\u2193"));
+        CHECK((says("the patient's") || says("the back") || says("the front")) == (has("\u2190") || has("\u2192")));
+        CHECK(says(" and ") == has(" "));
+      }
       const GuidingMove before = move_to(pose, view);
       for (const Key& key : kKeys) {
         if (guiding->keys[i].find(key.name) == std::string::npos) continue;

@@ -15,24 +15,30 @@
 using namespace insonate;
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Runs the exam that the options name to its end and its files.
+void finish(Trainer& trainer) {
+  trainer.open_from_options();
+  trainer.finish_loading();
+  trainer.start();
+  for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
+    trainer.update(i / 30.0);
+    if (trainer.best_frame_due()) {
+      trainer.draw(kSizes);
+      trainer.keep_best_frame();
+    }
+    trainer.write_results_if_due();
+  }
+  REQUIRE(trainer.result_files());
+  CHECK(trainer.problems().empty());
+}
+
+}  // namespace
+
 TEST_CASE("the trainer keeps attempts in the database it was given, and of the user's own accord only those by hand") {
   const test::TestContext context;
   const TrainerFolder folder;
-  const auto finish = [](Trainer& trainer) {
-    trainer.open_from_options();
-    trainer.finish_loading();
-    trainer.start();
-    for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
-      trainer.update(i / 30.0);
-      if (trainer.best_frame_due()) {
-        trainer.draw(kSizes);
-        trainer.keep_best_frame();
-      }
-      trainer.write_results_if_due();
-    }
-    REQUIRE(trainer.result_files());
-    CHECK(trainer.problems().empty());
-  };
   SECTION("a replayed log in a database that was named") {
     Options options = folder.options();
     options.results = folder.path / "lab.db";
@@ -164,36 +170,36 @@ zero = 60
 )");
   folder.file("exam.toml", exam);
   const auto placed = [](int slot, double x) { return Action{ActionKind::caliper, {double(slot), x, 40, x, 80}}; };
-  const ActionLog actions{{6.0, {{ActionKind::freeze}}},   {6.2, {placed(1, -15)}},       {6.4, {placed(2, -5)}},
-                          {6.6, {{ActionKind::unfreeze}}}, {7.6, {{ActionKind::freeze}}}, {7.8, {placed(3, 15)}},
-                          {8.4, {{ActionKind::go_on}}}};
-  folder.file("scan.igs.mha", write_sequence(samples_of(9, 60,
-                                                        [](double t) {
-                                                          return Pose{glm::dmat3(1.0), {0, 1, t > 7 ? 2 : 0}};
-                                                        }),
-                                             to_texts(actions)));
-  Options options = folder.options();
-  options.results = folder.path / "lab.db";
-  Trainer trainer(options);
-  trainer.open_from_options();
-  trainer.finish_loading();
-  trainer.start();
-  for (int i = 0; i < 1000 && !trainer.result_files(); ++i) {
-    trainer.update(i / 30.0);
-    if (trainer.best_frame_due()) {
-      trainer.draw(kSizes);
-      trainer.keep_best_frame();
-    }
-    trainer.write_results_if_due();
-  }
-  REQUIRE(trainer.result_files());
-  const Attempt attempt = ResultsDatabase::open(options.results).read(1);
-  std::vector<Image<std::uint8_t>> best;
-  for (const ReportPicture& picture : attempt.pictures)
-    if (picture.kind == ReportPicture::Kind::best) best.push_back(read_png(folder.file("picture.png", picture.png)));
-  REQUIRE(best.size() == 2);
-  CHECK(best[1].width == best[0].width);
-  CHECK(best[1].height > 2 * best[0].height);  // two pictures and a gap
+  /// Returns the learner's picture of the last step after such actions, at 7 s in another plane.
+  const auto last_picture = [&](const ActionLog& actions) {
+    folder.file("scan.igs.mha", write_sequence(samples_of(9, 60,
+                                                          [](double t) {
+                                                            return Pose{glm::dmat3(1.0), {0, 1, t > 7 ? 2 : 0}};
+                                                          }),
+                                               to_texts(actions)));
+    Options options = folder.options();
+    options.results = folder.path / "lab.db";
+    Trainer trainer(options);
+    finish(trainer);
+    ResultsDatabase database = ResultsDatabase::open(options.results);
+    std::vector<Image<std::uint8_t>> best;
+    for (const ReportPicture& picture : database.read(database.attempts().back().number).pictures)
+      if (picture.kind == ReportPicture::Kind::best) best.push_back(read_png(folder.file("picture.png", picture.png)));
+    REQUIRE(best.size() == 2);
+    CHECK(best[1].width == best[0].width);
+    return std::pair(best[0].height, best[1].height);
+  };
+  const ActionLog in_two{{6.0, {{ActionKind::freeze}}},   {6.2, {placed(1, -15)}},       {6.4, {placed(2, -5)}},
+                         {6.6, {{ActionKind::unfreeze}}}, {7.6, {{ActionKind::freeze}}}, {7.8, {placed(3, 15)}},
+                         {8.4, {{ActionKind::go_on}}}};
+  const auto [one, two] = last_picture(in_two);
+  CHECK(two > 2 * one);  // two pictures and a gap
+  // What was measured again in another picture is no longer shown in the first one.
+  ActionLog again = in_two;
+  again[7.9] = {placed(1, -15)};
+  again[8.0] = {placed(2, -5)};
+  const auto [single, last] = last_picture(again);
+  CHECK(last == single);
 }
 
 TEST_CASE("a second attempt's report shows its own best frame, and none when the view was never held") {

@@ -167,7 +167,10 @@ class Pictures(unittest.TestCase):
             insonate.Probe("linear", lines=64.5)
         with self.assertRaisesRegex(insonate.InputError, "Probe: 'width_mm' is None, which cannot be used; give a number"):
             insonate.Probe("linear", width_mm=None)
-        self.assertEqual(insonate.Probe("linear", width_mm=np.float32(50)).width_mm, 50)
+        with self.assertRaisesRegex(insonate.InputError, "number of scan lines is 1e.06; give a number from 1 to 4096"):
+            insonate.Probe("linear", lines=2000000)
+        for width_mm in (np.float32(50), np.array(50.0)):
+            self.assertEqual(insonate.Probe("linear", width_mm=width_mm).width_mm, 50)
         with self.assertRaisesRegex(insonate.InputError, "the depth in mm is 5000; give a number from 0.1 to 1000"):
             self.simulator.set_probe("linear", 5000)
 

@@ -167,6 +167,15 @@ TEST_CASE("a fan whose pixels have the size of another unit is refused") {
   recorded.record(in_cm * usual_matrix());
   recorded.refused("scan.igs.mha: the fan in its images has a depth of 4.5 mm, not 20 to 400; name");
   recorded.refused("if a pixel is not 0.15 x 0.15 mm large, give the right ImageToProbe as --image-to-probe FILE.");
+  // 18 mm are no scan of a body, and 21 mm may be.
+  glm::dmat4 smaller(0.4);
+  smaller[3][3] = 1;
+  recorded.record(smaller * usual_matrix());
+  recorded.refused("the fan in its images has a depth of 18.0 mm, not 20 to 400");
+  glm::dmat4 small(0.47);
+  small[3][3] = 1;
+  recorded.record(small * usual_matrix());
+  CHECK(read_sweep(recorded.input).sweep.depth_mm == Approx(21).margin(1));
 }
 
 TEST_CASE("a file that is not what its ending says is refused by what it lacks") {

@@ -32,7 +32,7 @@ TEST_CASE("a transform is written as ITK reads it, and never without its verdict
   const std::string text = itk_transform(matrix, verdict(found));
   CHECK(text.find("#Insight Transform File V1.0\n") == 0);
   CHECK(text.find("# Not converged: another place is nearly as similar. Do not use this transform. A nearer "
-                  "start, a wider search or more images may help.\n") != std::string::npos);
+                  "start may help, or a longer sweep.\n") != std::string::npos);
   CHECK(text.find("\nTransform: AffineTransform_double_3_3\n") != std::string::npos);
   std::istringstream numbers(text.substr(text.find("Parameters:") + 11));
   double n[12];
