@@ -113,11 +113,12 @@ TEST_CASE("the only transform of the probe is taken, whatever it leads to") {
   CHECK(track_of(text_of({at("1", {stepper, transform("StylusToTracker", moved(2, 0))})})).transform ==
         "ProbeToStepperHome");
   CHECK_THAT(refusal(text_of({at("1", {stepper, transform("ProbeTipToStepper", moved(2, 0))})})),
-             Contains("it has ProbeToStepperHome, ProbeTipToStepper") && Contains("--transform ProbeToStepperHome"));
+             Contains("it has ProbeToStepperHome, ProbeTipToStepper") &&
+                 Contains("such as ProbeToStepperHome: by --transform"));
   // Of transforms that hold for all frames alone nothing can be followed.
   CHECK_THAT(refusal(text_of({at("1", {transform("StylusToTracker", moved(2, 0))})},
                              "ProbeToPatientTransform = " + moved(0, 0) + "\n")),
-             Contains("--transform StylusToTracker"));
+             Contains("such as StylusToTracker: by --transform"));
 }
 
 TEST_CASE("every link of a way has to be OK in its frame") {
