@@ -20,7 +20,8 @@ void Screen::draw_layout_buttons(Trainer& trainer, Rect& line) {
     const std::string id = std::string("layout_") + kLayoutNames[i];
     const Rect where = places_[id] = line.take_left(theme_.px(36)).inset(0, theme_.px(6));
     line.take_left(theme_.px(4));
-    const bool chosen = trainer.preferences().look.layout == LayoutName(i) && !large_;
+    const bool chosen =
+        trainer.preferences().look.layout == LayoutName(i) && !large_ && shown_aside(trainer) == Aside::none;
     if (button(theme_, id.c_str(), where, "", chosen ? ButtonKind::chosen : ButtonKind::normal, true, kTips[i]))
       choose(LayoutName(i), trainer);
     for (const auto& [view, part] : ui::lay_out({LayoutName(i), {}}, where.inset(theme_.px(6), theme_.px(5)), 2, {}))
@@ -94,11 +95,15 @@ void Screen::draw_status(Trainer& trainer) {
     return button(theme_, id, place, text, kind, enabled, tip);
   };
   const ClipRecorder& clip = trainer.clip();
-  if (next("picture", 80, "Picture", ButtonKind::normal, can_save(trainer), "Saves the ultrasound as a PNG  (P)"))
+  const auto if_shown = [&](const char* tip) {
+    return place(View::ultrasound).w > 0 ? tip : "The ultrasound is not shown now: Esc shows all views again.";
+  };
+  if (next("picture", 80, "Picture", ButtonKind::normal, can_save(trainer),
+           if_shown("Saves the ultrasound as a PNG  (P)")))
     saves_picture_ = true;
   if (next("clip", 96, clip.running() ? "Clip " + clock_text(clip.duration_s()) : "Clip",
            clip.running() ? ButtonKind::recording : ButtonKind::normal, clip.running() || can_save(trainer),
-           "Begins and ends a film of the ultrasound, a WebM file  (L)"))
+           if_shown("Begins and ends a film of the ultrasound, a WebM file  (L)")))
     toggle_clip(trainer);
   draw_sweep_buttons(trainer, line);
   if (sheet(trainer) && next("score_sheet", 72, "Score", ButtonKind::normal, true, "Shows the score sheet again  (F4)"))

@@ -19,7 +19,7 @@ struct RegistrationOptions {
   bool refines = true;
   std::filesystem::path out = "registration";  ///< the folder that is written; or the next free name
   bool headless = false;
-  double seconds = 0;  ///< end after so many seconds; 0: headless after 60, in a window never
+  double seconds = 0;  ///< end after so many seconds; 0: headless after 300, in a window never
   std::filesystem::path screenshot, state_file;
   int width = 1280, height = 800;
 

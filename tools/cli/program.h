@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <signal.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -13,9 +14,11 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/core/input_error.h"
+#include "sim/core/suggest.h"
 #include "tools/cli/about.h"
 #include "tools/cli/program_pages.h"
 
@@ -73,6 +76,25 @@ inline void refuse_unusable(const CLI::App& arguments) {
   for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
 }
 
+/// Returns the first option of the command line that the program does not have, as the problem and the remedy of a
+/// sentence; empty if it has all. CLI11 reads its value for a file, and may name that alone.
+inline std::string unknown_option(const CLI::App& arguments, int argc, char** argv) {
+  std::vector<std::string> known;
+  const std::function<void(const CLI::App&)> gather = [&](const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const CLI::App* chosen : app.get_subcommands()) gather(*chosen);
+  };
+  gather(arguments);
+  for (int i = 1; i < argc && std::strcmp(argv[i], "--") != 0; ++i) {
+    const std::string given = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (!given.starts_with("--") || std::ranges::find(known, given) != known.end()) continue;
+    const auto similar = similar_name(given, known);
+    return "it has no option '" + in_one_line(given) + "'" + (similar ? "; did you mean '" + *similar + "'?" : "");
+  }
+  return "";
+}
+
 /// Throws InputError if the output could not be written completely to standard output.
 inline void finish_printing() {
   errno = 0;
@@ -107,8 +129,9 @@ inline int run_program(CLI::App& arguments, int argc, char** argv, const std::fu
     std::string command = arguments.get_name(), problem = in_one_line(error.what());
     for (const CLI::App* mode : arguments.get_subcommands()) command += " " + mode->get_name();
     if (problem.ends_with('.')) problem.pop_back();
-    std::fprintf(stderr, "%s: command line: %s; see '%s --help'.\n", arguments.get_name().c_str(), problem.c_str(),
-                 command.c_str());
+    if (const std::string unknown = unknown_option(arguments, argc, argv); !unknown.empty()) problem = unknown;
+    std::fprintf(stderr, "%s: command line: %s '%s --help'.\n", arguments.get_name().c_str(),
+                 (problem + (problem.ends_with('?') ? " See" : "; see")).c_str(), command.c_str());
     return 2;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", arguments.get_name().c_str(), error.what());

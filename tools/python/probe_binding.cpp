@@ -24,10 +24,22 @@ int whole(double number, const std::string& name) {
                    "give a whole number");
 }
 
+// Refuses a part of the geometry that a probe of this kind does not have. It would change nothing.
+void check_has(const Probe& probe, const std::string& name) {
+  const bool is_curved = probe.kind == ProbeKind::curvilinear, is_linear = probe.kind == ProbeKind::linear;
+  if ((name == "radius_mm" && !is_curved) || (name == "field_of_view_deg" && is_linear) ||
+      (name == "width_mm" && is_curved))
+    throw InputError("Probe", "", "a " + kKinds.at(std::size_t(probe.kind)) + " probe has no '" + name + "'",
+                     is_curved   ? "give radius_mm and field_of_view_deg"
+                     : is_linear ? "give width_mm"
+                                 : "give width_mm and field_of_view_deg");
+}
+
 Probe made(const std::string& like, const py::kwargs& changes) {
   Probe probe = probe_of(py::str(like));
   for (const auto& [key, value] : changes) {
     const std::string name = py::str(key);
+    check_has(probe, name);
     if (name == "radius_mm")
       probe.radius_mm = number_of(value, "Probe", name);
     else if (name == "field_of_view_deg")

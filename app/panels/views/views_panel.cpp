@@ -83,13 +83,19 @@ bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
   view::OrbitCamera& camera = pictures.camera;
   const bool over_probe = ImGui::IsItemHovered() && session && session->shown_pose() &&
                           on_probe(theme, camera, panel, *session->shown_pose(), io.MousePos);
-  if (ImGui::IsItemActivated()) holds_probe_ = over_probe && io.MouseDown[0] && !io.KeyShift;
+  if (ImGui::IsItemActivated()) {
+    holds_probe_ = over_probe && io.MouseDown[0] && !io.KeyShift;
+    if (holds_probe_) {
+      const glm::dvec2 face = camera.project(session->shown_pose()->translation, int(panel.w), int(panel.h));
+      grip_ = {io.MousePos.x - panel.x - float(face.x), io.MousePos.y - panel.y - float(face.y)};
+    }
+  }
   if (over_probe || (holds_probe_ && ImGui::IsItemActive())) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   const bool drags_probe = holds_probe_ && session;
   move_by_mouse(theme, panel, camera, !drags_probe);
   if (drags_probe && ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    const view::LineOfSight to =
-        view::line_of_sight(camera, {io.MousePos.x - panel.x, io.MousePos.y - panel.y}, int(panel.w), int(panel.h));
+    const glm::dvec2 face(io.MousePos.x - panel.x - grip_.x, io.MousePos.y - panel.y - grip_.y);
+    const view::LineOfSight to = view::line_of_sight(camera, face, int(panel.w), int(panel.h));
     session->move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
   }
   draw_title(theme, panel, "Patient");

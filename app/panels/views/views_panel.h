@@ -30,6 +30,7 @@ public:
 
 private:
   bool holds_probe_ = false;
+  ImVec2 grip_;  ///< from the face's middle to where the pointer took the probe, pixels
 };
 
 }  // namespace insonate::ui

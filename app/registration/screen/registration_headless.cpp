@@ -42,8 +42,8 @@ int run_registration_headless(const RegistrationOptions& options) {
       written_s = now_s;
       write_registration_state(options.state_file, session);
     }
-    // A server that is not there may still be started: this goes on, but says what it waits for.
-    if (const std::string problem = session.problem(); session.stream().received() == 0 && problem != waits_for) {
+    // A server that is not there, or has gone, may come back: this goes on, but says what it waits for.
+    if (const std::string problem = session.stream().problem(); problem != waits_for) {
       waits_for = problem;
       if (!problem.empty()) std::fprintf(stderr, "insonate: waiting: %s\n", problem.c_str());
     }

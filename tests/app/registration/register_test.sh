@@ -74,4 +74,16 @@ refused() {
   grep -q '^insonate: waiting: No connection to 127.0.0.1:1' "$work/said" || fail "not said while it waits"
   refused "--tracker is required" register --headless --start "$work/start.txt"
 }
+
+echo "a server that ends is named while it is waited for"
+# shellcheck disable=SC2086
+"$program" $live --image-to-probe "$work/image.txt" --start "$work/start.txt" --seconds 600 --out "$work/lost" \
+  --state-file "$work/lost.json" >"$work/said" 2>&1 &
+running=$!
+seen() { for _ in $(seq 1 600); do grep -q "$1" "$2" 2>/dev/null && return; sleep 0.1; done; fail "not seen: $1"; }
+seen '"received": [1-9]' "$work/lost.json"
+kill "$serving"
+serving=""
+seen "^insonate: waiting: .*127.0.0.1:$port" "$work/said"
+kill "$running"
 echo "passed"

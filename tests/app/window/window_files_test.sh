@@ -67,17 +67,19 @@ await "the probe is seen" is_not probe_on_screen_x ""
 remember_probe
 from_x=$(value probe_on_screen_x) from_y=$(value probe_on_screen_y)
 to_x=$((from_x + 30)) to_y=$((from_y + 24))
-pointer_to "$from_x" "$from_y"
+# It is taken beside its face, which must not jump to the pointer.
+taken_x=$((from_x + 14)) taken_y=$((from_y - 14))
+pointer_to "$taken_x" "$taken_y"
 xdotool mousedown 1
 for step in 1 2 3 4 5 6; do
-  pointer_to $((from_x + 5 * step)) $((from_y + 4 * step))
+  pointer_to $((taken_x + 5 * step)) $((taken_y + 4 * step))
   sleep 0.1
 done
 xdotool mouseup 1
 await "the probe moves" far_enough
-# Within a few pixels: its face is pressed a little into the skin that lies under the pointer.
-under_the_pointer() { ! moved probe_on_screen_x "$to_x" 8 && ! moved probe_on_screen_y "$to_y" 8; }
-await "the probe is where it was dragged to" under_the_pointer
+# Within a few pixels: its face is pressed a little into the skin.
+dragged_there() { ! moved probe_on_screen_x "$to_x" 8 && ! moved probe_on_screen_y "$to_y" 8; }
+await "the probe is where it was dragged to" dragged_there
 
 echo "a shader is edited while the trainer runs"
 builds() { grep -q '"shader_problem": ""' "$state"; }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/core/run_program.h"
 #include "tests/core/temporary_folder.h"
@@ -151,4 +152,19 @@ TEST_CASE("bash takes an option's value for no command") {
         "fast\n");
   CHECK(completed("insonate-sample --tracker replay : look ''", "insonate-sample --tracker replay:look ") ==
         "look closer put\n");
+}
+
+TEST_CASE("an option that the program does not have is named, whatever else is wrong") {
+  const auto unknown = [](std::vector<const char*> words) {
+    Sample sample;
+    words.insert(words.begin(), "insonate-sample");
+    CHECK_THROWS_AS(sample.app.parse(int(words.size()), words.data()), CLI::ParseError);
+    return unknown_option(sample.app, int(words.size()), const_cast<char**>(words.data()));
+  };
+  CHECK(unknown({"--qualty", "fast"}) == "it has no option '--qualty'; did you mean '--quality'?");
+  CHECK(unknown({"--qualty=fast"}) == "it has no option '--qualty'; did you mean '--quality'?");
+  CHECK(unknown({"look", "--lg", "a", "b"}) == "it has no option '--lg'; did you mean '--log'?");
+  CHECK(unknown({"closer", "--lgo"}) == "it has no option '--lgo'");
+  CHECK(unknown({"--amount", "500"}).empty());
+  CHECK(unknown({"look", "a", "--", "--lgo"}).empty());
 }

@@ -161,6 +161,10 @@ class Pictures(unittest.TestCase):
             self.simulator.set_probe("linaer")
         with self.assertRaisesRegex(insonate.InputError, "a probe has no 'width'"):
             insonate.Probe("linear", width=3)
+        for like, other in (("linear", "radius_mm"), ("linear", "field_of_view_deg"), ("curvilinear", "width_mm"),
+                            ("phased", "radius_mm")):
+            with self.assertRaisesRegex(insonate.InputError, f"a {like} probe has no '{other}'; give "):
+                insonate.Probe(like, **{other: 30})
         with self.assertRaises(ValueError):
             insonate.Probe("linear", lines=0)
         with self.assertRaisesRegex(insonate.InputError, "Probe: 'lines' is 64.5, which is not a count"):
