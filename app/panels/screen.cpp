@@ -116,6 +116,7 @@ PictureSizes Screen::picture_sizes(const Trainer& trainer, float width, float he
 }
 
 void Screen::choose(LayoutName layout, Trainer& trainer) {
+  if (layout == LayoutName::slices && hides_anatomy(trainer)) return show_note(kNoSlices);
   aside_ = Aside::none;
   large_.reset();
   Preferences preferences = trainer.preferences();
@@ -129,7 +130,8 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
       !ImGui::GetIO().Fonts->TexID)
     canvas_.make_fonts();
   ImGui::NewFrame();
-  hide_tips(saves_picture_);  // a tip may reach over the ultrasound
+  captures_ = saves_picture_;
+  hide_tips(captures_);  // a tip may reach over the ultrasound
   lay_out(trainer, size.x, size.y);
   draw_panels(trainer);
   draw_overlay(trainer);
@@ -155,12 +157,14 @@ bool Screen::render(Trainer& trainer, FrameTimes* times) {
 void Screen::capture(Trainer& trainer, bool changed) {
   const bool clip = trainer.clip().running();
   if (!can_save(trainer)) saves_picture_ = false;
-  if (!(saves_picture_ || (clip && changed)) || !can_save(trainer)) return;
+  if (!(captures_ || (clip && changed)) || !can_save(trainer)) return;
   if (toast_.left_s() > 0 && !toast_is_aside_) return toast_.hide();  // which uncovers the picture in the next frame
   const Rect seen = place(View::ultrasound);
   const Image<Rgba8> picture = canvas_.read({int(seen.x), int(seen.y), int(seen.x + seen.w), int(seen.y + seen.h)});
   if (clip) trainer.clip().take(picture, ImGui::GetTime());
-  if (std::exchange(saves_picture_, false)) trainer.save_picture(picture);
+  if (!captures_) return;
+  saves_picture_ = false;
+  trainer.save_picture(picture);
 }
 
 void Screen::toggle_clip(Trainer& trainer) {
@@ -218,7 +222,7 @@ void Screen::draw_session(Trainer& trainer) {
   else if (task_.h > 0)
     draw_task_panel(theme_, task_, *session, trainer.picture_tools(), trainer.step_controls(), text_field_, places_);
   if (const Rect panel = place(View::ultrasound); panel.w > 0)
-    if (UltrasoundPanel::draw(theme_, panel, *session, trainer.pictures(), trainer.picture_tools(), places_))
+    if (UltrasoundPanel::draw(theme_, panel, *session, trainer.pictures(), trainer.picture_tools(), places_, captures_))
       enlarge(View::ultrasound);
   const std::optional<Guiding> guiding = trainer.guide().now(*session);
   const Guiding* guide = guiding && guide_.h > 0 ? &*guiding : nullptr;
@@ -423,9 +427,10 @@ void Screen::draw_time_runs_on(const Session& session) {
 
 /// In the 3D view, above its buttons and axes, so that the ultrasound stays free. If it is hidden, in the view that is
 /// large. On a page, over the line of keys at its bottom, so that its buttons stay free.
-Rect Screen::toast_place() const {
+Rect Screen::toast_place(const Trainer& trainer) const {
   const Rect space = place(View::space);
-  if (views_.empty()) return {screen_.x, screen_.y, screen_.w, screen_.h - theme_.px(2)};
+  if (views_.empty() || overlay(trainer) == Overlay::score)
+    return {screen_.x, screen_.y, screen_.w, screen_.h - theme_.px(2)};
   const Rect around = space.h > 0 ? space : views_.begin()->second;
   return {around.x, around.y, around.w, around.h - theme_.px(space.h > 0 ? 76 : 56)};
 }
@@ -460,7 +465,7 @@ void Screen::draw_toast(const Trainer& trainer) {
   const bool reads = top_page() != Overlay::none && top_page() != Overlay::volume;
   if (reads && overlay(trainer) == top_page()) return toast_.wait();
   toast_is_aside_ = place(View::space).w > 0;
-  const std::filesystem::path file = toast_.draw(theme_, toast_place(), places_);
+  const std::filesystem::path file = toast_.draw(theme_, toast_place(trainer), places_);
   if (!file.empty()) show_on_desktop(is_page(file) ? file : file.parent_path());
 }
 

@@ -174,7 +174,7 @@ private:
   void draw_check_page(Trainer& trainer);
   void draw_demonstration(Trainer& trainer);
   void take_path(Trainer& trainer);
-  Rect toast_place() const;
+  Rect toast_place(const Trainer& trainer) const;
   void draw_toast(const Trainer& trainer);
   void forget_old_toast(const Trainer& trainer);
   void show_on_desktop(const std::filesystem::path& path);
@@ -182,6 +182,7 @@ private:
   void ask_to_leave(Trainer& trainer, bool ends, const std::function<void(Trainer&)>& go_on);
   /// Returns whether an exam that counts is being taken.
   static bool takes_exam(const Trainer& trainer);
+  static bool hides_anatomy(const Trainer& trainer) { return trainer.session() && !trainer.session()->shows_anatomy(); }
   bool asked_before(double& last_s);
   void draw_time_runs_on(const Session& session);
   Overlay top_page() const { return pages_.empty() ? Overlay::none : pages_.back(); }
@@ -194,6 +195,7 @@ private:
   bool shows_sheet(const Trainer& trainer) const;
   void draw_setup(Trainer& trainer);
   bool can_save(const Trainer& trainer) const;
+  static constexpr char kNoSlices[] = "This exam hides the CT: its slices come when it is over.";
   void capture(Trainer& trainer, bool changed);
   void answer_score(Trainer& trainer, ScoreAnswer answer);
 
@@ -222,7 +224,7 @@ private:
   std::filesystem::path opened_;
   /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.
   std::vector<Overlay> pages_;
-  bool fonts_are_new_ = false, saves_picture_ = false, toast_is_aside_ = false;
+  bool fonts_are_new_ = false, saves_picture_ = false, captures_ = false, toast_is_aside_ = false;
   bool quits_ = false;
   struct {
     bool ends = false;  ///< the program

@@ -22,7 +22,9 @@ void Screen::draw_layout_buttons(Trainer& trainer, Rect& line) {
     line.take_left(theme_.px(4));
     const bool chosen =
         trainer.preferences().look.layout == LayoutName(i) && !large_ && shown_aside(trainer) == Aside::none;
-    if (button(theme_, id.c_str(), where, "", chosen ? ButtonKind::chosen : ButtonKind::normal, true, kTips[i]))
+    const bool can = LayoutName(i) != LayoutName::slices || !hides_anatomy(trainer);
+    if (button(theme_, id.c_str(), where, "", chosen ? ButtonKind::chosen : ButtonKind::normal, can,
+               can ? kTips[i] : kNoSlices))
       choose(LayoutName(i), trainer);
     for (const auto& [view, part] : ui::lay_out({LayoutName(i), {}}, where.inset(theme_.px(6), theme_.px(5)), 2, {}))
       fill(part, view == View::ultrasound ? colour::kText : colour::kFaint, 1);
@@ -73,9 +75,10 @@ void Screen::draw_status(Trainer& trainer) {
              : trainer.leads_to_check()  ? "Check"
                                          : "Start page",
              ButtonKind::normal, trainer.can_leave(),
-             trainer.leads_to_learners() ? "Back to the learners  (Esc)"
-             : trainer.leads_to_check()  ? "Back to the check of the scenario  (Esc)"
-                                         : "Leaves this, and shows what else there is to do  (Esc)"))
+             !trainer.can_leave()          ? "This exam counts: go on to its end, then it can be left."
+             : trainer.leads_to_learners() ? "Back to the learners  (Esc)"
+             : trainer.leads_to_check()    ? "Back to the check of the scenario  (Esc)"
+                                           : "Leaves this, and shows what else there is to do  (Esc)"))
     return leave(trainer);
   if (!trainer.replay()) {
     places_["record"] = line.take_left(theme_.px(124)).inset(0, theme_.px(6));
@@ -84,7 +87,9 @@ void Screen::draw_status(Trainer& trainer) {
     places_["setup"] = line.take_left(theme_.px(90)).inset(0, theme_.px(6));
     if (button(theme_, "setup", places_["setup"], "Set up", ButtonKind::normal,
                trainer.session() && !trainer.session()->strict(),
-               "Finds how the tracker's sensor lies on the dummy probe  (F2)"))
+               trainer.session() && trainer.session()->strict()
+                   ? "This exam counts: go on to its end, then the tracker can be set up."
+                   : "Finds how the tracker's sensor lies on the dummy probe  (F2)"))
       begin_setup(trainer);
     line.take_left(theme_.px(8));
   }

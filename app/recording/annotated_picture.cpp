@@ -14,12 +14,12 @@ namespace {
 /// A colour that no echo has: the report shows pictures smaller than they are.
 constexpr Rgba8 kInk{255, 214, 64, 255}, kEdge{0, 0, 0, 255};
 /// Of a picture 480 pixels high; they grow with it.
-constexpr double kArm = 9, kDotDistance = 9, kReferenceHeight = 480;
+constexpr double kArm = 14, kDotDistance = 14, kReferenceHeight = 480;
 
 /// Fills a square with a dark edge, so that it is seen on bright echoes.
 class Pen {
 public:
-  Pen(Image<Rgba8>& picture, double scale) : picture_(picture), half_(int(scale)) {}
+  Pen(Image<Rgba8>& picture, double scale) : picture_(picture), half_(int(std::round(1.5 * scale))) {}
 
   void edge(const glm::dvec2& at) { fill(at, half_ + 1, kEdge); }
   void ink(const glm::dvec2& at) { fill(at, half_, kInk); }

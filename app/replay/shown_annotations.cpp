@@ -32,7 +32,9 @@ std::vector<ShownAnnotations::Value> values_of(const std::optional<Pose>& pictur
   for (const auto& [slot, annotation] : tools.annotations().measured())
     if (!hand || hand->slot() != slot)
       add(annotation.action, picture == annotation.patient_from_probe ? Of::picture : Of::other_picture);
-  if (hand && (hand->kind == ActionKind::caliper || hand->kind == ActionKind::ellipse)) add(*hand, Of::in_hand);
+  // An ellipse without a width has no area yet.
+  if (hand && (hand->kind == ActionKind::caliper || (hand->kind == ActionKind::ellipse && hand->numbers[5] > 0)))
+    add(*hand, Of::in_hand);
   if (const std::string total = tools.total_text(); !total.empty()) {
     const std::size_t blank = total.find(' ');
     values.push_back({total.substr(0, blank), total.substr(blank + 1), Of::picture});

@@ -172,6 +172,7 @@ void Session::hold(Holder holder) {
 void Session::take_probe() {
   if (holder_ == Holder::learner || strict()) return;
   learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(loaded_case_->surroundings.start));
+  taken_in_ = activity_;
   hold(Holder::learner);
   practise();
 }
@@ -181,7 +182,7 @@ void Session::give_back_probe() {
   restart_tracker();  // if it throws, the learner keeps the probe
   if (tracker_->relative()) left_place_.leave_at(learner_->pose());
   hold(Holder::tracker);
-  if (loaded_case_->scenario) activity_ = Activity::exam;
+  if (activity_ == Activity::practice) activity_ = taken_in_;
   begin_attempt();
 }
 

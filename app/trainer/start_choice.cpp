@@ -33,6 +33,13 @@ std::int64_t StartPage::taken_in(const OfferedScenario& exam) const {
   return 0;
 }
 
+const Sitting* StartPage::begun_in(const OfferedScenario& exam) const {
+  const auto found = std::ranges::find_if(sittings_, [&](const Sitting& sitting) {
+    return sitting.learner == learner() && sitting.scenario_digest == exam.digest;
+  });
+  return found == sittings_.end() ? nullptr : &*found;
+}
+
 std::string StartPage::why_no_exam() const {
   if (!scenario) return "Choose an exam.";
   if (database_.empty()) return "There is no database to keep the attempt in: start the trainer with --results.";
@@ -40,8 +47,13 @@ std::string StartPage::why_no_exam() const {
     return learner_is_typed ? "Enter takes the id that is typed on the right."
                             : "An exam is kept under a learner's id: say on the right who is learning.";
   if (const std::int64_t number = taken_in(scenarios_[*scenario]))
-    return learner() + " has taken this exam already, as attempt " + std::to_string(number) +
+    return learner() + " has taken this exam already: it is no. " + std::to_string(number) +
            " of the results. Choose another, or practise.";
+  if (const Sitting* begun = begun_in(scenarios_[*scenario]))
+    return learner() + " began this exam on " + utc_time(begun->began_ms) +
+           " and has not handed it in. End it where it is being taken, or have what there is of it scored: "
+           "'insonate-score hand-in " +
+           database_.string() + "'.";
   return "";
 }
 

@@ -148,6 +148,7 @@ void StartPage::read_again(const fs::path& out, ResultsDatabase* database) {
   options_.out = out;
   database_.clear();
   attempts_.clear();
+  sittings_.clear();
   learners_.clear();
   runs_.clear();
   expert_of_.clear();
@@ -262,6 +263,7 @@ void StartPage::list_cases() {
 void StartPage::read_database(ResultsDatabase& database) {
   attempts_ = database.attempts();
   std::reverse(attempts_.begin(), attempts_.end());
+  sittings_ = database.sittings();
   std::set<std::string> known;
   for (const LearnerSummary& learner : database.learners())
     if (learner.id != kNobodyInParticular) known.insert(learner.id);

@@ -114,6 +114,8 @@ public:
   const std::vector<std::string>& learners() const { return learners_; }
   /// Returns the number of the attempt in which the chosen learner took this exam; 0 if there is none.
   std::int64_t taken_in(const OfferedScenario& exam) const;
+  /// Returns the learner's sitting of an exam that was begun and is not handed in; null if there is none.
+  const Sitting* begun_in(const OfferedScenario& exam) const;
   /// Returns the attempts of the chosen learner, of all if nobody is chosen, newest first.
   std::vector<AttemptSummary> attempts() const;
   /// Returns the database of results; empty if there is none.
@@ -198,6 +200,7 @@ private:
   std::string network_tracker_;
   std::vector<std::string> learners_;
   std::vector<AttemptSummary> attempts_;  ///< newest first
+  std::vector<Sitting> sittings_;         ///< begun and not handed in
   std::string problem_;
   std::future<std::vector<FoundTracker>> search_;
   double searched_s_ = 0;

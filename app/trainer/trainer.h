@@ -161,7 +161,8 @@ public:
   void cover(bool covered) { covered_ = covered; }
   /// Returns whether something covers the screen and time does not stand still, which the learner has to know.
   bool time_runs_on() const {
-    return covered_ && session() && session()->runner() && !session()->result() && !session()->can_stand_still();
+    return covered_ && !briefing() && session() && session()->runner() && !session()->result() &&
+           !session()->can_stand_still();
   }
 
   /// Ends an exam that counts before its end: what has been done is scored and stored.

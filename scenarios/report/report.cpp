@@ -212,8 +212,9 @@ std::string kind_of_report(std::optional<AttemptMode> mode) {
 
 std::string whose(const ReportSubject& subject) {
   std::string rows;
-  for (const auto& [name, value] :
-       {std::pair{"Learner", &subject.learner}, {"Attempt", &subject.attempt}, {"Finished", &subject.finished}})
+  for (const auto& [name, value] : {std::pair{"Learner", &subject.learner},
+                                    {"No. in the results", &subject.attempt},
+                                    {"Finished", &subject.finished}})
     if (!value->empty())
       rows.append("<tr><td>").append(name).append("</td><td>").append(escaped(*value)) += "</td></tr>";
   return rows.empty() ? "" : "<table class='whose'>" + rows + "</table>";

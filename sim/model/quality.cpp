@@ -40,7 +40,7 @@ Quality quality_named(const std::string& name) {
 }
 
 Settings at_quality(Settings balanced, Quality quality) {
-  const double samples = quality == Quality::fast ? 0.75 : quality == Quality::exact ? 4 : 1;
+  const double samples = quality == Quality::fast ? 0.5 : quality == Quality::exact ? 4 : 1;
   const double pixels = quality == Quality::fast ? 0.75 : 1;
   balanced.samples = scaled(balanced.samples, samples);
   balanced.image_width = scaled(balanced.image_width, pixels);

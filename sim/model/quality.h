@@ -11,7 +11,7 @@ namespace insonate {
 /// Selects a point on the Pareto front of run time against error that `insonate-bench front` measures: the cost of a
 /// frame, and the distance of its grey levels from the converged reference. docs/benchmarks has both, by device.
 ///
-///     fast      three quarters of the samples, and of the pixels along each side
+///     fast      half of the samples, and three quarters of the pixels along each side
 ///     balanced  trainer_settings(): two samples per reflection length, 640 x 480
 ///     exact     four times the samples
 enum class Quality { fast, balanced, exact };

@@ -29,9 +29,11 @@
 ///
 /// a_s is the scatterer's complex amplitude, v the slice's window at its distance z_s from the imaging plane, h linear
 /// weights of the two lines and the two samples nearest to it. c makes the mean of |f|^2 equal to b T A^2 in uniform
-/// tissue. Where the slice holds several media, their powers add up. Scatterers do not belong to planes: when the
-/// probe moves they would jump from one medium to the next. The phase that the carrier gives an echo is part of a_s: a
-/// move of the probe turns the phases of all echoes in a resolution cell alike, which no envelope shows.
+/// tissue. Without Settings::speckle n = i: the powers of interfaces and scatterers then add, as they do in the mean,
+/// and where q is negative nothing cancels to a dark line. Where the slice holds several media, their powers add up.
+/// Scatterers do not belong to planes: when the probe moves they would jump from one medium to the next. The phase that
+/// the carrier gives an echo is part of a_s: a move of the probe turns the phases of all echoes in a resolution cell
+/// alike, which no envelope shows.
 ///
 /// q = +-(alpha |d . n|^m)^(1/2) alpha^2 / (alpha^2 + b^2/4) is the interface's amplitude (1, 3): negative where the
 /// impedance falls, m = specular_exponent. The last factor keeps the noise and the texture of a CT from counting as

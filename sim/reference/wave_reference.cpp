@@ -61,7 +61,7 @@ void add(Wave& sums, const ScanLines& lines, const Settings& settings, const glm
 Wave scatterers_reference(const ScanLines& lines, const Settings& settings, const Pose& patient_from_probe) {
   Wave sums(int(lines.lines.size()), lines.samples);
   if (!settings.speckle) {
-    std::ranges::fill(sums.pixels, 1.0);
+    std::ranges::fill(sums.pixels, std::complex<double>(0, 1));
     return sums;
   }
 

@@ -281,3 +281,38 @@ TEST_CASE("a bone that is steep in elevation is one broad echo, not one for each
   CHECK(samples >= 8);
   CHECK(least > 0.05 * sum / samples);  // between the rungs of a ladder there is less than a thousandth
 }
+
+TEST_CASE(
+    "without speckle, a surface behind which the impedance falls adds to the tissue's echo, and cancels nothing") {
+  AcousticVolume body;  // muscle before the plane y = 40 mm, fat behind it, and equal scatterers in both
+  body.grid.size = {40, 160, 40};
+  body.grid.spacing = {2, 0.5, 0.5};
+  body.grid.origin = {-39, 0, -9.75};
+  for (int z = 0; z < body.grid.size.z; ++z)
+    for (int y = 0; y < body.grid.size.y; ++y)
+      for (int x = 0; x < body.grid.size.x; ++x) body.voxels.push_back({std::int16_t(y < 80 ? 60 : -100), -2000});
+  const test::TestContext context;
+  gl::Simulator simulator;
+  simulator.set_volume(body, read_tissue_table(INSONATE_ASSETS_FOLDER "/tissues.toml"));
+  simulator.set_probe(*find_probe("linear"), 60);
+  simulator.set_pose({glm::dmat3(1.0), {0, 2, 0}});
+  Settings settings = trainer_settings(7.5, 60);
+  settings.speckle = settings.reverberation = settings.electronic_noise = settings.clutter = settings.absorption =
+      false;
+  simulator.set_settings(settings);
+  const Stages<float> stages = simulator.read_stages();
+  const ScanLines lines = scan_lines(*find_probe("linear"), 60, settings.samples);
+  const auto power_at = [&](double y_mm) {
+    const int k = int((y_mm - 2 - lines.r_min_mm) / lines.dr_mm()), line = stages.wave_re.width / 2;
+    return std::pow(stages.wave_re.at(line, k), 2) + std::pow(stages.wave_im.at(line, k), 2);
+  };
+  double least = 1e300, most = 0;
+  for (double y_mm = 35; y_mm < 45; y_mm += lines.dr_mm()) {
+    least = std::min(least, power_at(y_mm));
+    most = std::max(most, power_at(y_mm));
+  }
+  const double tissue = std::min(power_at(30), power_at(50));
+  CHECK(tissue > 0);
+  CHECK(most > 3 * tissue);     // the surface is seen
+  CHECK(least > 0.8 * tissue);  // echoes of opposite signs would cancel beside it
+}

@@ -39,9 +39,10 @@ const std::vector<Key> kViews{
     {"F5, F6, F7", "the usual views; slices along the patient's axes; four of one size"},
     {"Double click a view", "make it large; again, or Escape: back"},
     {"Drag the CT, O", "across the window, up and down the level; outlines of organs"},
-    {"K, F8", "how the patient looks in 3D; effects of the picture, off and on, in practice"},
     {"Wheel on a slice, B, X", "through the slices; to the probe; cross at its face or in the fan"},
 };
+const std::vector<Key> kLook{{"K", "how the patient looks in 3D"}};
+const std::vector<Key> kEffects{{"F8", "effects of the picture, off and on, in practice"}};
 /// While the anatomy is hidden there is no CT, and landmarks have no names.
 const std::vector<Key> kExamPatient{
     {"Drag the patient", "turn; middle button or Shift shifts; right button or wheel zooms"},
@@ -55,7 +56,8 @@ const std::vector<Key> kMachine{
     {"Space", "freeze the picture"},
     {"+, \u2212 and [, ]", "gain; depth"},
 };
-const std::vector<Key> kUndo{{"Ctrl Z, Ctrl Y", "undo a knob or a move of the probe; do it again"}};
+const std::vector<Key> kUndo{
+    {"Ctrl Z, Ctrl Y", "undo what is placed, a knob, or a move of the probe; do a knob or a move again"}};
 const std::vector<Key> kTools{
     {"Click the frozen picture", "measure from end to end; drag an end to move it"},
     {"C", "calipers or ellipse, where both may be used"},
@@ -115,6 +117,8 @@ Help help_of(HelpTopic topic) {
               keys_of({kProbe,
                        kPatient,
                        kViews,
+                       kLook,
+                       kEffects,
                        {{"Tab", "take the probe, give it back to the tracker"}},
                        kMachine,
                        kUndo,
@@ -129,12 +133,13 @@ Help help_of(HelpTopic topic) {
                        kWindow})};
     case HelpTopic::exam:
       return {"Help: an exam that counts",
-              "Do what each step asks for, hold the view still, and go on. The clock runs on while this page is open.",
+              "Do what each step asks for, hold the view still, and go on. Once the exam has begun, its clock runs on "
+              "while this page is open.",
               keys_of({kProbe,
                        kExamPatient,
                        kExamViews,
                        kMachine,
-                       {{"Ctrl Z, Ctrl Y", "undo a knob; do it again"}},
+                       {{"Ctrl Z, Ctrl Y", "undo what is placed, or a knob; do a knob again"}},
                        kTools,
                        kFiles,
                        kWindow})};
@@ -153,6 +158,7 @@ Help help_of(HelpTopic topic) {
                         {"Ctrl O", "open another recorded scan"},
                         {"Escape", "back to the start page, or to the learners"}},
                        kViews,
+                       kLook,
                        kWindow})};
     case HelpTopic::setup:
       return {
@@ -171,6 +177,7 @@ Help help_of(HelpTopic topic) {
               keys_of({kProbe,
                        kPatient,
                        kViews,
+                       kLook,
                        kMachine,
                        kUndo,
                        {{"1 to 9", "choose a structure of the view"},

@@ -179,8 +179,9 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
       attempt([&] { session.start_over(session.activity()); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
                     learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict(),
-                    learner ? "The tracker moves the probe again, from the beginning  (Tab)"
-                            : "Mouse and keys move the probe from here on  (Tab)")) {
+                    session.strict() ? "This exam counts: the probe stays with the tracker."
+                    : learner        ? "The tracker moves the probe again, from the beginning  (Tab)"
+                                     : "Mouse and keys move the probe from here on  (Tab)")) {
     attempt([&] { learner ? session.give_back_probe() : session.take_probe(); });
   }
   if (button(theme, "help", lower.take_left(theme.px(86)), "Help", ButtonKind::normal, true,
@@ -198,12 +199,14 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
       request = ConsoleRequest::brief;
   } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
                     session.loaded_case().scenario.has_value() && !session.strict(),
-                    "Scans without steps, clock and score")) {
+                    session.strict() ? "This exam counts: practice is there when it is over."
+                                     : "Scans without steps, clock and score")) {
     // In a recorded scan no hand moves the probe, so practice must take it.
     std::as_const(session).source().recording() ? session.take_probe() : session.practise();
   }
   if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict(),
-             "Opens a case, CT, scenario or recorded scan  (Ctrl O)"))
+             session.strict() ? "This exam counts: go on to its end, then something else can be opened."
+                              : "Opens a case, CT, scenario or recorded scan  (Ctrl O)"))
     request = ConsoleRequest::open;
   return request;
 }

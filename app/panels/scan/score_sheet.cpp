@@ -56,7 +56,26 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
-  draw_tooltip(theme, row, mark.why);
+}
+
+/// Whether the sheet says why: where points are missing. The report says it of all.
+bool has_reason(const CriterionScore& mark) {
+  return mark.points < mark.weight && !mark.why.empty();
+}
+
+std::size_t rows_of(const std::vector<CriterionScore>& marks) {
+  return marks.size() + std::size_t(std::ranges::count_if(marks, has_reason));
+}
+
+void draw_marks(const Theme& theme, Rect& rows, float height, const std::vector<CriterionScore>& marks) {
+  for (const CriterionScore& mark : marks) {
+    draw_mark(theme, rows.take_top(height), mark);
+    if (!has_reason(mark)) continue;
+    Rect reason = rows.take_top(height);
+    reason.y -= theme.px(4);
+    reason.take_left(theme.px(16));
+    draw_text(reason, theme.small_text, colour::kMuted, mark.why);
+  }
 }
 
 /// What the step has found out besides values, such as what was measured.
@@ -92,8 +111,8 @@ std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) 
 }
 
 std::size_t row_count(const ExamResult& result) {
-  std::size_t rows = result.steps.size() + 1 + result.criteria.size();
-  for (const StepResult& step : result.steps) rows += step.facts.size() + step.criteria.size();
+  std::size_t rows = result.steps.size() + 1 + rows_of(result.criteria);
+  for (const StepResult& step : result.steps) rows += step.facts.size() + rows_of(step.criteria);
   return rows;
 }
 
@@ -102,11 +121,11 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
     for (const auto& fact : step.facts) draw_fact(theme, rows.take_top(height), fact);
-    for (const CriterionScore& mark : step.criteria) draw_mark(theme, rows.take_top(height), mark);
+    draw_marks(theme, rows, height, step.criteria);
   }
   if (result.criteria.empty()) return;
   draw_group(theme, rows.take_top(height), "The whole exam", clock_text(result.motion.time_s));
-  for (const CriterionScore& mark : result.criteria) draw_mark(theme, rows.take_top(height), mark);
+  draw_marks(theme, rows, height, result.criteria);
 }
 
 }  // namespace

@@ -49,11 +49,14 @@ void draw_grey_scale(const Theme& theme, const Rect& panel, float bottom, double
                 formatted("\u2212%.0f", dynamic_range_db));
 }
 
-// Draws the dot beside the face's edge that is on the marker's side.
-void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
+/// Returns the middle of the dot beside the face's edge that is on the marker's side.
+ImVec2 marker_dot(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
   const ImVec2 edge = at(plane, face_edge(probe));
-  const float aside = theme.px(theme.look().marker == MarkerSide::left ? -20 : 20);
-  const ImVec2 dot{edge.x + aside, edge.y + theme.px(4)};
+  return {edge.x + theme.px(theme.look().marker == MarkerSide::left ? -20 : 20), edge.y + theme.px(4)};
+}
+
+void draw_marker(const Theme& theme, const PlaneOnScreen& plane, const Probe& probe) {
+  const ImVec2 dot = marker_dot(theme, plane, probe);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(dot, theme.px(6), colour::kAccent, 24);
   list->AddCircle(dot, theme.px(9), colour::kAccent, 24, 1.2f);
@@ -75,9 +78,17 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
             text);
 }
 
-/// Draws the texts around the picture. Returns where the next line goes.
-Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine) {
+/// Draws the texts around the picture, below the marker where that would lie under them. Returns where the next line
+/// goes.
+/// @param plane  of the picture; null if there is none
+Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
+                      const PlaneOnScreen* plane) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
+  if (plane) {
+    const ImVec2 dot = marker_dot(theme, *plane, machine.transducer());
+    const float text = std::min(text_width(theme.strong, patient), line.w), margin = theme.px(12);
+    if (dot.x < line.x + text + margin && dot.y > line.y - margin) line.y = dot.y + margin;
+  }
   draw_on_plate(theme, line, theme.strong, colour::kText, patient);
   line.y += line.h;
   line.h = theme.px(19);
@@ -107,6 +118,10 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
   fill(plate, lost_for_s ? colour::kAmber : colour::kAccentDark, theme.px(4));
   draw_paragraph({plate.x + margin, plate.y + margin / 2, width + 1, height}, theme.strong,
                  lost_for_s ? colour::kBackground : colour::kText, text);
+}
+
+std::string frozen_text(const Session& session) {
+  return session.machine().frozen ? "Frozen" : "";
 }
 
 std::string state_text(const Session& session, const PictureTools& tools) {
@@ -155,9 +170,9 @@ void smooth_edge(const PlaneOnScreen& plane, const Probe& probe, double depth_mm
   list->PathStroke(colour::kImage, ImDrawFlags_Closed, kThickness);
 }
 
-/// Draws the picture with its scales and annotations. Returns where it lies on the screen.
-PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
-                           const Machine& machine, const ShownAnnotations& annotations) {
+/// Draws the picture with its scales and annotations.
+void draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& picture, const Pictures& pictures,
+                  const Machine& machine, const ShownAnnotations& annotations) {
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   const bool mirrored = theme.look().marker == MarkerSide::left;
@@ -169,7 +184,6 @@ PlaneOnScreen draw_picture(const Theme& theme, const Rect& panel, const gl::Text
   draw_marker(theme, plane, machine.transducer());
   const float bottom = draw_annotations(theme, panel, plane, annotations);
   draw_grey_scale(theme, panel, bottom, machine.dynamic_range_db);
-  return plane;
 }
 
 /// Whether ImGui's last item was.
@@ -211,26 +225,28 @@ PlaneOnScreen UltrasoundPanel::plane(const Theme& theme, const Rect& panel, cons
 }
 
 bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
-                           PictureTools& tools, std::map<std::string, Rect>& places) {
+                           PictureTools& tools, std::map<std::string, Rect>& places, bool is_saved) {
   bool double_clicked = false;
   fill(panel, colour::kImage, theme.px(4));
   const Rect area = picture_area(theme, panel);
+  const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   if (const gl::Texture* picture = pictures.ultrasound()) {
-    const PlaneOnScreen plane =
-        draw_picture(theme, panel, *picture, pictures, session.machine(), shown_annotations(session, tools));
-    draw_picture_tools(theme, panel, session, tools, places);  // before the picture's own item, which lies below
+    draw_picture(theme, panel, *picture, pictures, session.machine(), shown_annotations(session, tools));
+    // Before the picture's own item, which lies below. Nobody wants buttons in a picture that is saved.
+    if (!is_saved) draw_picture_tools(theme, panel, session, tools, places);
     take_mouse(theme, area, session, plane, tools);
     double_clicked = is_double_clicked() && !PictureTools::ready(session);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
-  Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine());
+  Rect below = draw_annotations(theme, panel, session.loaded_case().subject.name, session.machine(),
+                                pictures.ultrasound() ? &plane : nullptr);
   if (!session.event_markers_s().empty()) {
     draw_on_plate(theme, below, theme.small_text, colour::kAccent, mark_text(session));
     below.y += below.h;
   }
   draw_mark(theme, panel, session);
-  draw_state(theme, below, session.lost_for_s(), state_text(session, tools));
+  draw_state(theme, below, session.lost_for_s(), is_saved ? frozen_text(session) : state_text(session, tools));
   draw_tracker_problem(theme, panel, session);
   return double_clicked;
 }
@@ -243,7 +259,8 @@ bool UltrasoundPanel::draw_still(const Theme& theme, const Rect& panel, const st
     draw_picture(theme, panel, *picture, pictures, machine, annotations);
   else
     draw_text(panel, theme.text, colour::kFaint, "No pose has come yet", Align::centre);
-  const Rect below = draw_annotations(theme, panel, patient, machine);
+  const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
+  const Rect below = draw_annotations(theme, panel, patient, machine, pictures.ultrasound() ? &plane : nullptr);
   draw_state(theme, below, lost_for_s, machine.frozen ? "Frozen" : "");
   ImGui::SetCursorScreenPos(panel.min());
   ImGui::InvisibleButton("ultrasound", {panel.w, panel.h});

@@ -26,8 +26,9 @@ public:
 
   /// Draws the panel and adds the positions of its buttons to `places`. Returns whether it was double-clicked; in a
   /// picture that can be measured in, clicks measure.
+  /// @param is_saved  whether this frame becomes a file, without the buttons and prompts of a frozen picture
   static bool draw(const Theme& theme, const Rect& panel, Session& session, const Pictures& pictures,
-                   PictureTools& tools, std::map<std::string, Rect>& places);
+                   PictureTools& tools, std::map<std::string, Rect>& places, bool is_saved);
   /// Draws the same for a finished run, without interaction. Returns whether it was double-clicked.
   static bool draw_still(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
                          const ShownAnnotations& annotations, std::optional<double> lost_for_s,

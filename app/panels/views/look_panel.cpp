@@ -95,12 +95,10 @@ void draw_scale(const Theme& theme, const Rect& below) {
 void LookPanel::draw_graph(const Theme& theme, const Rect& graph, PatientLook& look,
                            std::map<std::string, Rect>& places) {
   fill(graph, colour::kBackground, theme.px(3));
+  if (!look.shown())
+    return draw_text(graph, theme.text, colour::kMuted, "Surfaces have no curve to edit: choose another look",
+                     Align::centre);
   draw_histogram(graph, look.histogram());
-  if (!look.shown()) {
-    draw_on_plate(theme, {graph.x, graph.centre().y - theme.px(14), graph.w, theme.px(28)}, theme.text, colour::kMuted,
-                  "Surfaces have no curve to edit: choose another look", Align::centre);
-    return;
-  }
   draw_curve(theme, graph, *look.shown());
   places["look_graph"] = graph;
   const ImVec2 mouse = ImGui::GetIO().MousePos;

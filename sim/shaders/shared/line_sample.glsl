@@ -152,14 +152,14 @@ float incidence(Surroundings around) {
 }
 
 #if WAVES == 1
-// Returns n of sim/model/waves.h; 1 without speckle.
+// Returns n of sim/model/waves.h; i without speckle.
 vec2 scatterers_at(int k) {
 #if SPECKLE == 1
   ivec2 before = texelFetch(scattered, scattered_row + k).xy, behind = texelFetch(scattered, scattered_row + k + 1).xy;
   ivec2 of_before = (before - (before << 16 >> 16)) >> 16, of_behind = behind << 16 >> 16;
   return vec2(of_before + of_behind) * texelFetch(scatterer_scale, k).x;
 #else
-  return vec2(1.0, 0.0);
+  return vec2(0.0, 1.0);
 #endif
 }
 

@@ -38,6 +38,29 @@ TEST_CASE("who takes the probe out of an exam practises, and giving it back star
   CHECK(to_json(*session.result()) == score_of(runner));
 }
 
+TEST_CASE("who takes the probe out of practice and gives it back goes on practising") {
+  Session session(tiny_loaded_case(), replay_of(searching_scan()));
+  session.advance(0);
+  session.practise();
+  session.take_probe();
+  session.give_back_probe();
+  CHECK(session.holder() == Holder::tracker);
+  CHECK(session.activity() == Activity::practice);
+  CHECK(session.runner() == nullptr);
+}
+
+TEST_CASE("who gives the probe back during steps of the learner's own begins the tracker's steps") {
+  Session session(tiny_loaded_case(), replay_of(searching_scan()));
+  session.advance(0);
+  session.practise();
+  session.take_probe();
+  session.start_over();
+  REQUIRE(session.runner());
+  session.give_back_probe();
+  CHECK(session.activity() == Activity::exam);
+  CHECK(session.runner());
+}
+
 TEST_CASE("an exam of the learner's own starts on the belly and scores the learner's samples alone") {
   Session session(tiny_loaded_case(), replay_of(searching_scan()));
   session.advance(0);

@@ -92,7 +92,7 @@ TEST_CASE("the start page begins what is chosen, and is there again afterwards")
   CHECK(trainer.start_page()->attempts().size() == 1);
   trainer.start_page()->add(folder.path / "exam.toml");
   trainer.start_page()->task = Task::exam;
-  CHECK(trainer.start_page()->why_not().find("as attempt 1") != std::string::npos);
+  CHECK(trainer.start_page()->why_not().find("it is no. 1 of the results") != std::string::npos);
   trainer.begin_chosen();
   CHECK_FALSE(trainer.loading());
 

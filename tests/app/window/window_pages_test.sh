@@ -106,6 +106,28 @@ xdotool key l
 await "it is saved" contains toast ".webm"
 [ "$(head -c 4 "$work/files/pictures/"*.webm | od -An -tx1 | tr -d ' ')" = 1a45dfa3 ] || fail "it is not a WebM"
 
+echo "a frozen picture is saved without its buttons, and what is placed in it goes back first"
+xdotool key space
+await "the buttons are there" is_not tool_clear_x ""
+click_plane -10 20
+click_plane 10 20
+await "a length is measured" is_not placed ""
+button_of() { convert "$1" -crop "$(value tool_clear_w)x$(value tool_clear_h)+$2+$3" +repage "$4"; }
+import -window root "$work/screen.png"
+sleep 6.5  # the clip's toast goes
+xdotool key p
+two_pictures() { [ "$(find "$work/files/pictures" -name '*.png' | wc -l)" -ge 2 ]; }
+await "it is saved" two_pictures
+saved=$(find "$work/files/pictures" -name '*.png' | sort | tail -1)
+button_of "$work/screen.png" "$(value tool_clear_x)" "$(value tool_clear_y)" "$work/button.png"
+button_of "$saved" $(($(value tool_clear_x) - $(value ultrasound_x))) $(($(value tool_clear_y) - $(value ultrasound_y))) \
+  "$work/without.png"
+[ "$(different "$work/button.png" "$work/without.png")" -gt 300 ] || fail "the saved picture has a button"
+xdotool key ctrl+z
+await "the length is gone" is placed ""
+xdotool key space
+await "the picture runs" is frozen false
+
 echo "a knob and a move go back, and forward again"
 depth=$(value depth_mm)
 xdotool key bracketleft
