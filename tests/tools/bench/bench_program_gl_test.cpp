@@ -164,7 +164,7 @@ TEST_CASE("insonate-bench front: errors against the converged reference, a front
   Fixture f;
   const fs::path svg = f.folder / "front.svg";
   const bench::Table table =
-      f.measure("front --svg " + svg.string(), "24,1600,60,45,24,200,60,45,24,1600,15,11,24,1200,45,34");
+      f.measure("front --svg " + svg.string(), "24,1600,60,45,24,200,60,45,24,1600,15,11,24,800,45,34");
   REQUIRE(table.rows.size() == 4 + 11);
   const auto error = [&](std::size_t row) { return table.number("table.csv", row, "error_db"); };
   CHECK(error(0) > 0);
