@@ -33,6 +33,12 @@ std::int64_t StartPage::taken_in(const OfferedScenario& exam) const {
   return 0;
 }
 
+void StartPage::choose_scenario(const std::filesystem::path& file) {
+  const auto found =
+      std::ranges::find_if(scenarios_, [&](const OfferedScenario& offered) { return offered.file == file; });
+  if (found != scenarios_.end()) scenario = std::size_t(found - scenarios_.begin());
+}
+
 const Sitting* StartPage::begun_in(const OfferedScenario& exam) const {
   const auto found = std::ranges::find_if(sittings_, [&](const Sitting& sitting) {
     return sitting.learner == learner() && sitting.scenario_digest == exam.digest;

@@ -96,12 +96,17 @@ void Trainer::open(const std::filesystem::path& path) {
     if (const StartPage* page = start_page()) {
       given_ = page->options();
     }
+    const Material kind = kind_of_material(path);
+    if (kind == Material::ct || kind == Material::case_folder) {  // as if it had been opened on the start page
+      append_patient(path);
+      keep_preferences();
+      begun_ = Task::patients;
+    }
     if (start_page() || learners_page() || check_page()) {
       options_ = given_;
       find_calibration();
       next.tracker = options_.tracker;
     }
-    const Material kind = kind_of_material(path);
     switch (kind) {
       case Material::case_folder:
         next.source.case_folder = path;

@@ -340,6 +340,7 @@ private:
   void use_results(const std::filesystem::path& file);
   void make_start_page();
   void serve();
+  void append_patient(const std::filesystem::path& path);
   void remember(const StartPage& page);
   void forget_patient(const CaseSource& patient);
   void keep_preferences();
@@ -383,6 +384,7 @@ private:
   std::unique_ptr<IgtlFeed> feed_;                                    ///< nullptr when no clients are asked for
   std::optional<ResultFiles> result_files_;
   Task begun_ = Task::first_scan;                 ///< last begun on the start page, which shows it again
+  std::filesystem::path begun_scenario_;          ///< likewise; empty: none
   std::optional<LearnersChoice> reviewed_;        ///< on the page of learners, from which the replay was begun
   std::optional<std::filesystem::path> checked_;  ///< scenario on the page from which practice was begun
   bool covered_ = false;

@@ -55,21 +55,24 @@ void Trainer::prefer(const Preferences& preferences) {
   keep_preferences();
 }
 
+/// Puts a CT or case folder last among those that are offered again, and drops the oldest if there are too many.
+void Trainer::append_patient(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path>& kept = preferences_.patients;
+  const std::filesystem::path whole = std::filesystem::absolute(path);
+  std::erase(kept, whole);
+  if (can_be_kept(whole)) kept.push_back(whole);
+  if (kept.size() > Preferences::kMaxPatients) kept.erase(kept.begin(), kept.end() - Preferences::kMaxPatients);
+}
+
 /// Stores what the person has opened and typed on the start page, for the next one. What is not there now, such as a CT
 /// on a disk that is away, stays.
 void Trainer::remember(const StartPage& page) {
   const Preferences before = preferences_;
-  std::vector<std::filesystem::path>& kept = preferences_.patients;
-  const auto append = [&](const std::filesystem::path& path) {
-    const std::filesystem::path whole = std::filesystem::absolute(path);
-    std::erase(kept, whole);
-    if (can_be_kept(whole)) kept.push_back(whole);
-  };
+  const std::vector<std::filesystem::path>& kept = preferences_.patients;
   for (const std::filesystem::path& opened : page.opened_patients())
-    if (std::ranges::find(kept, std::filesystem::absolute(opened)) == kept.end()) append(opened);
+    if (std::ranges::find(kept, std::filesystem::absolute(opened)) == kept.end()) append_patient(opened);
   const bool is_used = page.task == Task::patients && page.patient < page.patients().size();
-  if (is_used && page.patients()[page.patient].opened) append(path_of(page.patients()[page.patient].source));
-  if (kept.size() > Preferences::kMaxPatients) kept.erase(kept.begin(), kept.end() - Preferences::kMaxPatients);
+  if (is_used && page.patients()[page.patient].opened) append_patient(path_of(page.patients()[page.patient].source));
   if (can_be_kept(page.network_tracker())) preferences_.network_tracker = page.network_tracker();
   if (before != preferences_) keep_preferences();
 }

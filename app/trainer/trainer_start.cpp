@@ -134,6 +134,7 @@ void Trainer::make_start_page() {
   open_results();
   mode_ = Choosing{std::make_unique<StartPage>(given_, results_ ? &*results_ : nullptr)};
   start_page()->task = task;
+  start_page()->choose_scenario(begun_scenario_);
   start_page()->offer_again(preferences_.patients, current_.source);
   start_page()->offer_network_tracker(preferences_.network_tracker);
   attempt([&] { start_page()->list_cases_in(preferences_.cases); });
@@ -162,6 +163,7 @@ void Trainer::begin_chosen() {
   const StartPage* page = start_page();
   if (!page || loading_ || !page->why_not().empty()) return;
   begun_ = page->task;
+  begun_scenario_ = page->scenario ? page->scenarios()[*page->scenario].file : std::filesystem::path();
   if (page->task == Task::learners) return show_learners();
   begin(page->chosen());
 }

@@ -17,9 +17,4 @@ void check_learner_id(std::string_view id, const std::string& file, const std::s
 /// The id of attempts without a named learner.
 inline constexpr const char* kNobodyInParticular = "anonymous";
 
-/// Returns how a person reads an id: "nobody" for attempts without a named learner.
-inline std::string shown_learner(const std::string& id) {
-  return id == kNobodyInParticular ? "nobody" : id;
-}
-
 }  // namespace insonate

@@ -51,14 +51,17 @@ struct SweepQuality {
   std::size_t pictures = 0;
   double duration_s = 0;
   double length_mm = 0;           ///< of the way of the region's middle along the normals, forwards alone
+  double slid_mm = 0;             ///< how far the region's middle came away from its first place within that plane
   double picture_hz = 0;          ///< from the median time between pictures; 0 for fewer than two
   double largest_spacing_mm = 0;  ///< over all steps
   double fastest_mm_s = 0;        ///< at the point where the speed is largest
   std::vector<SweepStep> steps;   ///< pictures - 1
   std::vector<SweepFlaw> flaws;   ///< in the order of time
 
-  bool is_good() const { return pictures > 1 && flaws.empty(); }
-  /// Returns one sentence: what was swept, and how evenly.
+  bool is_good() const { return pictures > 1 && flaws.empty() && !is_along(); }
+  /// Returns whether the probe slid along its own picture rather than across it.
+  bool is_along() const { return slid_mm > 10 && slid_mm > 2 * length_mm; }
+  /// Returns a sentence: what was swept, and how evenly. A second one says what to do if it is_along().
   std::string verdict() const;
 };
 
@@ -76,8 +79,9 @@ private:
   SweepLimits limits_;
   std::size_t pictures_ = 0;
   double begin_s_ = 0, last_s_ = 0;
-  glm::dmat4 last_from_pixel_{1.0};  ///< patient from the pixels of the last picture
-  std::vector<SweepStep> steps_;     ///< advance_mm as the picture's normal points
+  glm::dmat4 first_from_pixel_{1.0}, last_from_pixel_{1.0};  ///< patient from the pixels of the first and last picture
+  double slid_mm_ = 0;
+  std::vector<SweepStep> steps_;  ///< advance_mm as the picture's normal points
 };
 
 /// Returns the quality of a whole sweep.

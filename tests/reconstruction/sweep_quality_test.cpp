@@ -8,15 +8,16 @@ using namespace insonate;
 
 namespace {
 
-/// A hand that slides along the elevation to these places, one picture each.
-std::vector<TrackedPicture> slid(const std::vector<double>& places_mm, const std::vector<double>& times_s) {
+/// A hand that slides along the elevation to these places, one picture each, and meanwhile along the picture.
+std::vector<TrackedPicture> slid(const std::vector<double>& places_mm, const std::vector<double>& times_s,
+                                 double along_per_mm = 0) {
   const HandSweep sweep;
   const auto region = rectangle_region(sweep.width, sweep.height, {0, 0, sweep.width, sweep.height});
   std::vector<TrackedPicture> pictures;
   for (std::size_t n = 0; n < places_mm.size(); ++n) {
     TrackedPicture picture;
     picture.region = region;
-    const Pose pose = oblique_pose() * Pose{glm::dmat3(1.0), {0, 0, places_mm[n]}};
+    const Pose pose = oblique_pose() * Pose{glm::dmat3(1.0), {along_per_mm * places_mm[n], 0, places_mm[n]}};
     picture.patient_from_pixel = patient_from_pixel(pose, sweep.geometry());
     picture.time_s = 50 + times_s[n];
     pictures.push_back(picture);
@@ -140,4 +141,21 @@ TEST_CASE("fewer than two pictures are not a sweep") {
   CHECK_FALSE(sweep_quality({}, {1, 2}).is_good());
   CHECK_FALSE(Hand().quality().is_good());
   CHECK(Hand().quality().verdict() == "No sweep: it has fewer than two pictures.");
+}
+
+TEST_CASE("a probe that slides along its own picture is told to sweep across it") {
+  Hand hand;
+  hand.go(40, 0.1);
+  const SweepQuality along = sweep_quality(slid(hand.places_mm, hand.times_s, 10), {1.0, 2.0});
+  CHECK(along.is_along());
+  CHECK_FALSE(along.is_good());
+  CHECK(along.slid_mm == Approx(40));
+  CHECK(along.verdict() ==
+        "41 pictures over 4 mm in 4.0 s. The probe slid 40 mm along its own picture: sweep across it.");
+  const SweepQuality askew = sweep_quality(slid(hand.places_mm, hand.times_s, 1), {1.0, 2.0});
+  CHECK(askew.is_good());
+  CHECK(sweep_quality(
+            slid(std::vector<double>(20, 0.0), std::vector<double>(hand.times_s.begin(), hand.times_s.begin() + 20)),
+            {1.0, 2.0})
+            .is_good());  // a hand at rest does not slide
 }

@@ -13,7 +13,6 @@
 #include "app/panels/widgets/choice_rows.h"
 #include "app/panels/widgets/scroll_area.h"
 #include "app/trainer/folder_list.h"
-#include "scenarios/results/learner_id.h"
 #include "scenarios/words.h"
 
 namespace insonate::ui {
@@ -110,7 +109,7 @@ std::string best_of(const LearnerLine& learner) {
 
 RowTexts texts_of(const LearnerLine& learner) {
   RowTexts texts;
-  texts.upper = learner.id.empty() ? "All learners" : shown_learner(learner.id);
+  texts.upper = learner.id.empty() ? "All learners" : learner.id;
   texts.lower = counted(learner.attempts, "attempt", "attempts");
   if (learner.exams > 0)
     texts.lower +=
@@ -124,7 +123,7 @@ RowTexts texts_of(const LearnerLine& learner) {
 
 RowTexts texts_of(const AttemptSummary& attempt, const LearnersPage& page) {
   RowTexts texts;
-  texts.upper = (page.choice().learner.empty() ? shown_learner(attempt.learner) + ", " : "") + attempt.title;
+  texts.upper = (page.choice().learner.empty() ? attempt.learner + ", " : "") + attempt.title;
   texts.upper_right = fixed(attempt.percent, 1) + " %";
   if (attempt.passed) texts.right_ink = colour::kAccent;
   texts.lower = time_text(attempt.finished_ms / 1000) + (attempt.mode ? ", " + name_of(attempt.mode) : "") +
@@ -281,8 +280,7 @@ void LearnersPanel::draw_attempts(const Theme& theme, const Rect& panel, Learner
 LearnersAnswer LearnersPanel::draw_attempt(const Theme& theme, const Rect& panel, LearnersPage& page, const Run& run) {
   const AttemptSummary* attempt = page.attempt();
   const std::string title =
-      attempt ? "No. " + std::to_string(attempt->number) + " of the results, by " + shown_learner(attempt->learner)
-              : "Comments";
+      attempt ? "No. " + std::to_string(attempt->number) + " of the results, by " + attempt->learner : "Comments";
   const Rect rest = begin_panel(theme, panel, title);
   switch (attempt_.draw(theme, rest, page, run, *places_)) {
     case AttemptRequest::none:

@@ -4,6 +4,7 @@
 
 #include "app/panels/pages/overlays.h"
 #include "app/panels/scan/exam_panel.h"
+#include "app/panels/widgets/scroll_area.h"
 #include "scenarios/words.h"
 
 namespace insonate::ui {
@@ -145,15 +146,14 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   for (const std::string& reason : reasons)
     draw_text(sheet.take_top(reason_height), theme.small_text, colour::kAmber, reason);
   sheet.take_top(theme.px(4));
-  draw_column_titles(theme, sheet.take_top(row));
-
+  Rect titles = sheet.take_top(row);
   Rect bottom = sheet.take_bottom(theme.px(92));
-  ImGui::SetCursorScreenPos(sheet.min());
-  ImGui::BeginChild("marks", {sheet.w + theme.px(14), sheet.h});
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  draw_rows(theme, {origin.x, origin.y, sheet.w, rows_height}, row, result);
-  ImGui::Dummy({sheet.w, rows_height});
-  ImGui::EndChild();
+  {
+    const ScrollArea area(theme, "marks", sheet, rows_height);
+    draw_rows(theme, area.content(), row, result);
+    titles.w = area.content().w;  // above their columns
+  }
+  draw_column_titles(theme, titles);
 
   ScoreAnswer answer = ScoreAnswer::none;
   bottom.take_top(theme.px(12));

@@ -134,7 +134,7 @@ struct StripWords {
 /// What the strip says: that the step is not done, the hints, or else what to do now.
 StripWords words_of(const Session& session, const PictureTools& tools, const StepControls& controls) {
   if (controls.asks_again())
-    return {"This step is not done yet. Going on leaves it as it is, for good.", colour::kAmber};
+    return {"This step is not done yet. Enter goes on and leaves it as it is, for good; Escape stays.", colour::kAmber};
   const LiveExam& live = session.runner()->live();
   std::string hints;
   for (const std::string& hint : live.hints) hints += (hints.empty() ? "Hint: " : "  ") + hint;

@@ -138,7 +138,7 @@ void StartPanel::draw_learner(const Theme& theme, Rect panel, StartPage& page, c
   if (refused && !learner_.is_open()) outline(field, colour::kAmber, theme.px(4));
   rest.take_top(theme.px(8));
   std::vector<Choice> choices{
-      {"learner_nobody", "Nobody", nobody && !refused ? ButtonKind::chosen : ButtonKind::normal}};
+      {"learner_nobody", "Anonymous", nobody && !refused ? ButtonKind::chosen : ButtonKind::normal}};
   std::vector<std::string> ids{""};
   constexpr std::size_t kMax = 24;  // what flows into the rows
   for (const std::string& id : page.learners()) {

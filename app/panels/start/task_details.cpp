@@ -14,6 +14,8 @@
 namespace insonate::ui {
 namespace {
 
+constexpr float kPatientWord = 64;  ///< width of the word before the buttons of patients
+
 constexpr std::array<TaskText, kTasks> kTaskTexts{{
     {Task::first_scan, "First scan", "Two minutes, with a guide", "Start"},
     {Task::demonstration, "Demonstration", "Watch a recorded scan", "Watch"},
@@ -58,6 +60,20 @@ void draw_keys(const Theme& theme, Rect& rest, std::initializer_list<std::array<
   rest.take_top(theme.px(12));
 }
 
+std::vector<Choice> variants_of(const OfferedScenario& scenario, std::optional<std::size_t> chosen) {
+  std::vector<Choice> choices{{"variant_any", "By chance", chosen ? ButtonKind::normal : ButtonKind::chosen}};
+  for (std::size_t i = 0; i < scenario.variants.size(); ++i)
+    choices.push_back({"variant_" + std::to_string(i), scenario.variants[i].name,
+                       chosen == i ? ButtonKind::chosen : ButtonKind::normal});
+  return choices;
+}
+
+/// Returns the height of the buttons of a scenario's patients; 0 if there is nothing to choose.
+float variants_height(const Theme& theme, const OfferedScenario& scenario, float width) {
+  return scenario.variants.empty() ? 0
+                                   : height_of_flow(theme, width - theme.px(kPatientWord), variants_of(scenario, {}));
+}
+
 StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::map<std::string, Rect>& places) {
   StartAnswer answer;
   const bool practice = page.task == Task::practice;
@@ -69,7 +85,7 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   float height = 0;
   for (const OfferedScenario& scenario : page.scenarios())
     height = std::max(height, paragraph_height(theme.text, scenario.briefing, rest.w) +
-                                  (practice && !scenario.variants.empty() ? theme.px(kChoiceRow + 8) : 0));
+                                  (practice ? variants_height(theme, scenario, rest.w) + theme.px(8) : 0));
   Rect details = rest.take_bottom(std::min(height + theme.px(34 + 8 + 4), rest.h * 0.5f));
   rest.take_bottom(theme.px(12));
   std::vector<ListRow> rows;
@@ -104,14 +120,11 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
   }
   const OfferedScenario& scenario = page.scenarios()[*page.scenario];
   if (practice && !scenario.variants.empty()) {
-    Rect row = details.take_bottom(theme.px(kChoiceRow));
+    Rect rows_of_variants = details.take_bottom(variants_height(theme, scenario, details.w));
     details.take_bottom(theme.px(8));
-    draw_text(row.take_left(theme.px(64)), theme.text, colour::kMuted, "Patient");
-    std::vector<Choice> choices{{"variant_any", "By chance", page.variant ? ButtonKind::normal : ButtonKind::chosen}};
-    for (std::size_t i = 0; i < scenario.variants.size(); ++i)
-      choices.push_back({"variant_" + std::to_string(i), scenario.variants[i].name,
-                         page.variant == i ? ButtonKind::chosen : ButtonKind::normal});
-    if (const auto clicked = row_of_choices(theme, row, choices, places))
+    Rect word = rows_of_variants.take_left(theme.px(kPatientWord));
+    draw_text(word.take_top(theme.px(kChoiceRow)), theme.text, colour::kMuted, "Patient");
+    if (const auto clicked = flow_of_choices(theme, rows_of_variants, variants_of(scenario, page.variant), places))
       page.variant = *clicked == 0 ? std::nullopt : std::optional(*clicked - 1);
   }
   draw_paragraph(details, theme.text, colour::kText, scenario.briefing);

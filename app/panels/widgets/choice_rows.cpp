@@ -55,6 +55,21 @@ std::optional<std::size_t> flow_of_choices(const Theme& theme, const Rect& where
   return clicked;
 }
 
+float height_of_flow(const Theme& theme, float width, const std::vector<Choice>& choices) {
+  const float gap = theme.px(8);
+  float left = width;
+  int rows = 1;
+  for (const Choice& choice : choices) {
+    const float wide = width_of(theme, choice);
+    if (wide > left && left < width) {
+      ++rows;
+      left = width;
+    }
+    left -= wide + gap;
+  }
+  return theme.px(kChoiceRow) + float(rows - 1) * theme.px(kSecondChoiceRow);
+}
+
 bool need_two_rows(const Theme& theme, float width, const std::vector<std::string>& texts) {
   float sum = 0;
   for (const std::string& text : texts) sum += text_width(theme.text, text) + theme.px(36);

@@ -28,6 +28,9 @@ std::optional<std::size_t> row_of_choices(const Theme& theme, Rect row, const st
 std::optional<std::size_t> flow_of_choices(const Theme& theme, const Rect& where, const std::vector<Choice>& choices,
                                            std::map<std::string, Rect>& places);
 
+/// Returns the height of the rows in which all of them fit.
+float height_of_flow(const Theme& theme, float width, const std::vector<Choice>& choices);
+
 /// Returns whether texts are too long for buttons in one row.
 bool need_two_rows(const Theme& theme, float width, const std::vector<std::string>& texts);
 

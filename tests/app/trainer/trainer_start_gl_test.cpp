@@ -322,7 +322,14 @@ TEST_CASE("the next start offers what was opened, the newest last, and forgets n
     trainer.show_start_page();
     REQUIRE(trainer.start_page());
     CHECK(trainer.start_page()->patients()[trainer.start_page()->patient].source.case_folder == folder.path / "tiny");
+    CHECK(read_preferences(file).patients == std::vector{away, other, folder.path / "tiny"});
+    trainer.start_page()->task = Task::learners;
+    trainer.open(other);  // as Ctrl O does
+    trainer.finish_loading();
+    REQUIRE(trainer.session());
+    trainer.show_start_page();
+    CHECK(trainer.start_page()->task == Task::patients);
   }
-  CHECK(read_preferences(file).patients == std::vector{away, other, folder.path / "tiny"});
+  CHECK(read_preferences(file).patients == std::vector{away, folder.path / "tiny", other});
   CHECK(read_preferences(file).network_tracker == "igtl://localhost:18999/Probe");
 }
