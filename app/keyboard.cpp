@@ -369,9 +369,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     const bool back = pressed.key == GLFW_KEY_Z && !(pressed.modifiers & GLFW_MOD_SHIFT);
     const bool forward = pressed.key == GLFW_KEY_Y || (pressed.key == GLFW_KEY_Z && !back);
     std::string why_not;
-    // What is placed in a frozen picture comes after all that led to the picture.
-    const bool placed = PictureTools::ready(session) && trainer.picture_tools().can_undo();
-    if (back && placed) return trainer.picture_tools().undo(session);
+    if (back && trainer.picture_tools().did_last(session)) return trainer.picture_tools().undo(session);
     if (back) why_not = trainer.undo_history().undo(session);
     if (forward) why_not = trainer.undo_history().redo(session);
     if (!why_not.empty()) screen.show_note(why_not);

@@ -161,8 +161,10 @@ void Screen::capture(Trainer& trainer, bool changed) {
   if (toast_.left_s() > 0 && !toast_is_aside_) return toast_.hide();  // which uncovers the picture in the next frame
   const Rect seen = place(View::ultrasound);
   const Image<Rgba8> picture = canvas_.read({int(seen.x), int(seen.y), int(seen.x + seen.w), int(seen.y + seen.h)});
-  if (clip) trainer.clip().take(picture, ImGui::GetTime());
-  if (!captures_) return;
+  if (!captures_) {
+    trainer.clip().take(picture, ImGui::GetTime());
+    return;
+  }
   saves_picture_ = false;
   trainer.save_picture(picture);
 }

@@ -198,7 +198,7 @@ void PictureTools::commit(Session& session, Action action) {
   if (before && before->action == action && before->patient_from_probe == *picture) return;
   // What lay in another picture cannot be restored in this one.
   const bool again = before && before->patient_from_probe == *picture;
-  done_.push_back({again ? before->action : take_back(action), *picture});
+  done_.push_back({again ? before->action : take_back(action), *picture, session.machine()});
   session.act(action);
   annotations_.apply(action, picture);
   chosen_slot_.reset();
@@ -215,6 +215,13 @@ bool PictureTools::cancel() {
   const bool any = in_hand_ || place_;
   drop();
   return any;
+}
+
+bool PictureTools::did_last(const Session& session) const {
+  if (!ready(session)) return false;
+  if (drawing_ || place_) return true;
+  return !done_.empty() && session.frozen_picture() == done_.back().picture &&
+         session.machine() == done_.back().machine;
 }
 
 void PictureTools::undo(Session& session) {

@@ -66,6 +66,9 @@ public:
   /// Removes all annotations.
   void clear(Session& session);
   bool can_undo() const { return drawing_ || place_ || !done_.empty(); }
+  /// Returns whether the last thing that the learner did is undone by undo(): it is being placed, or was placed in the
+  /// frozen picture, and the machine is as it was then.
+  bool did_last(const Session& session) const;
 
   const Annotations& annotations() const { return annotations_; }
   /// Returns what is being placed or moved, as it would be if the pointer were released now.
@@ -74,7 +77,8 @@ public:
 private:
   struct Undo {
     Action action;
-    Pose picture;  ///< in which it was done
+    Pose picture;     ///< in which it was done
+    Machine machine;  ///< as it was then
   };
   void begin_step(const Session& session);
   void begin(const glm::dvec2& at);

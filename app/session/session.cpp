@@ -159,7 +159,7 @@ void Session::start_over(Activity activity) {
 
 void Session::practise() {
   if (strict()) return;
-  activity_ = Activity::practice;
+  activity_ = taken_in_ = Activity::practice;
   begin_attempt();
 }
 
@@ -172,9 +172,10 @@ void Session::hold(Holder holder) {
 void Session::take_probe() {
   if (holder_ == Holder::learner || strict()) return;
   learner_ = std::make_unique<MouseTracker>(newest_pose_.value_or(loaded_case_->surroundings.start));
-  taken_in_ = activity_;
+  const Activity taken_in = activity_;
   hold(Holder::learner);
   practise();
+  taken_in_ = taken_in;
 }
 
 void Session::give_back_probe() {

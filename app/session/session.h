@@ -107,8 +107,8 @@ public:
   bool only_learner() const { return only_learner_; }
   /// Gives the probe to the learner where it is, and ends the tracker's exam.
   void take_probe();
-  /// Gives the probe back to the tracker, whose exam begins anew if the probe was taken in one. Throws what opening the
-  /// tracker throws; the learner keeps the probe then.
+  /// Gives the probe back to the tracker. Its exam begins anew if the probe was taken in one or the learner's own steps
+  /// run; else practice goes on. Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
   /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
   /// leaves the probe where it is, and stopped_at_edge() reports it.

@@ -138,9 +138,9 @@ public:
   const std::string& learner() const { return options_.learner; }
   const std::filesystem::path& calibration() const { return options_.calibration; }
 
-  /// Throws InputError for a URI that no tracker has.
   /// Chooses the scenario of a file that is offered; else the choice stays.
   void choose_scenario(const std::filesystem::path& file);
+  /// Throws InputError for a URI that no tracker has.
   void choose_tracker(const std::string& uri);
   /// Chooses a learner; nobody in particular for an empty id. Throws InputError if the id is not valid. Then nothing
   /// that a learner does can begin until one is chosen.

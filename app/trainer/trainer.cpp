@@ -97,11 +97,7 @@ void Trainer::open(const std::filesystem::path& path) {
       given_ = page->options();
     }
     const Material kind = kind_of_material(path);
-    if (kind == Material::ct || kind == Material::case_folder) {  // as if it had been opened on the start page
-      append_patient(path);
-      keep_preferences();
-      begun_ = Task::patients;
-    }
+    next.is_opened_patient = kind == Material::ct || kind == Material::case_folder;
     if (start_page() || learners_page() || check_page()) {
       options_ = given_;
       find_calibration();
@@ -196,6 +192,11 @@ void Trainer::take_over_loaded() {
   const std::unique_ptr<Loading> loaded = std::move(loading_);
   std::shared_ptr<const LoadedCase> patient;
   const bool loads = attempt([&] { patient = loaded->take(); });
+  if (loads && requested_.is_opened_patient) {  // as if it had been opened on the start page
+    append_patient(path_of(requested_.source));
+    keep_preferences();
+    begun_ = Task::patients;
+  }
   if (loads) attempt([&] { begin(std::move(patient), requested_); });
   give_up_choice();
   if (StartPage* page = start_page(); page && !loads && requested_.source.scenario.empty()) {

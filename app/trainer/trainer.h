@@ -290,9 +290,10 @@ private:
   bool in_exam() const { return options_.mode == Mode::exam; }
   struct Request {
     CaseSource source;
-    std::string tracker;         ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
-    ReplaySource replay;         ///< what is looked at again, in place of a session
-    bool free_practice = false;  ///< without the scenario's steps
+    std::string tracker;             ///< URI; empty: the bundled log with the bundled exam, else the learner's own hand
+    ReplaySource replay;             ///< what is looked at again, in place of a session
+    bool free_practice = false;      ///< without the scenario's steps
+    bool is_opened_patient = false;  ///< a CT or case that a person has opened by its path
   };
   /// Throws, on the loading thread, what the session will throw for reasons that have nothing to do with the patient: a
   /// patient can take a minute to make.

@@ -95,7 +95,7 @@ std::string SweepFlaw::words() const {
 std::string SweepQuality::verdict() const {
   if (pictures < 2) return "No sweep: it has fewer than two pictures.";
   const std::string what = formatted("%zu pictures over %.0f mm in %.1f s", pictures, length_mm, duration_s);
-  if (is_along()) return what + formatted(". The probe slid %.0f mm along its own picture: sweep across it.", slid_mm);
+  if (is_along()) return what + formatted(". They moved %.0f mm within their own plane: sweep across it.", slid_mm);
   if (flaws.empty()) return "Even: " + what + formatted(", at most %.1f mm apart.", largest_spacing_mm);
   return "Uneven: " + what + formatted(", up to %.1f mm apart.", largest_spacing_mm);
 }
@@ -103,7 +103,6 @@ std::string SweepQuality::verdict() const {
 void SweepMeter::add(const TrackedPicture& picture) {
   if (pictures_++ == 0) {
     begin_s_ = picture.time_s;
-    first_from_pixel_ = picture.patient_from_pixel;
   } else {
     const Pose last_from_patient = plane_of(last_from_pixel_).inverse();
     SweepStep step;
@@ -119,11 +118,17 @@ void SweepMeter::add(const TrackedPicture& picture) {
     const glm::dvec2 middle = (low + high) / 2.0;
     const glm::dvec3 now(picture.patient_from_pixel * glm::dvec4(middle, 0, 1));
     step.advance_mm = last_from_patient.point(now).z;
-    const glm::dvec3 first(first_from_pixel_ * glm::dvec4(middle, 0, 1));
-    const Pose first_from_patient = plane_of(first_from_pixel_).inverse();
-    slid_mm_ =
-        std::max(slid_mm_, glm::length(glm::dvec2(first_from_patient.point(now) - first_from_patient.point(first))));
+    if (picture.region == first_region_) {
+      const glm::dvec3 first(first_from_pixel_ * glm::dvec4(middle, 0, 1));
+      const Pose first_from_patient = plane_of(first_from_pixel_).inverse();
+      const glm::dvec3 way = first_from_patient.point(now) - first_from_patient.point(first);
+      slid_mm_ = std::max(slid_mm_, glm::length(glm::dvec2(way)));
+    }
     steps_.push_back(step);
+  }
+  if (picture.region != first_region_) {
+    first_region_ = picture.region;
+    first_from_pixel_ = picture.patient_from_pixel;
   }
   last_s_ = picture.time_s;
   last_from_pixel_ = picture.patient_from_pixel;

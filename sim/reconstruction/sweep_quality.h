@@ -50,8 +50,10 @@ struct SweepFlaw {
 struct SweepQuality {
   std::size_t pictures = 0;
   double duration_s = 0;
-  double length_mm = 0;           ///< of the way of the region's middle along the normals, forwards alone
-  double slid_mm = 0;             ///< how far the region's middle came away from its first place within that plane
+  double length_mm = 0;  ///< of the way of the region's middle along the normals, forwards alone
+  /// How far the region's middle came away from its first place within that picture's plane. A change of depth or
+  /// probe begins anew.
+  double slid_mm = 0;
   double picture_hz = 0;          ///< from the median time between pictures; 0 for fewer than two
   double largest_spacing_mm = 0;  ///< over all steps
   double fastest_mm_s = 0;        ///< at the point where the speed is largest
@@ -59,7 +61,7 @@ struct SweepQuality {
   std::vector<SweepFlaw> flaws;   ///< in the order of time
 
   bool is_good() const { return pictures > 1 && flaws.empty() && !is_along(); }
-  /// Returns whether the probe slid along its own picture rather than across it.
+  /// Returns whether the pictures moved in their own plane rather than across it: the probe slid along, or rocked.
   bool is_along() const { return slid_mm > 10 && slid_mm > 2 * length_mm; }
   /// Returns a sentence: what was swept, and how evenly. A second one says what to do if it is_along().
   std::string verdict() const;
@@ -80,6 +82,7 @@ private:
   std::size_t pictures_ = 0;
   double begin_s_ = 0, last_s_ = 0;
   glm::dmat4 first_from_pixel_{1.0}, last_from_pixel_{1.0};  ///< patient from the pixels of the first and last picture
+  std::shared_ptr<const PictureRegion> first_region_;
   double slid_mm_ = 0;
   std::vector<SweepStep> steps_;  ///< advance_mm as the picture's normal points
 };

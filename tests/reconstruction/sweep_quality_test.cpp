@@ -150,12 +150,19 @@ TEST_CASE("a probe that slides along its own picture is told to sweep across it"
   CHECK(along.is_along());
   CHECK_FALSE(along.is_good());
   CHECK(along.slid_mm == Approx(40));
-  CHECK(along.verdict() ==
-        "41 pictures over 4 mm in 4.0 s. The probe slid 40 mm along its own picture: sweep across it.");
+  CHECK(along.verdict() == "41 pictures over 4 mm in 4.0 s. They moved 40 mm within their own plane: sweep across it.");
   const SweepQuality askew = sweep_quality(slid(hand.places_mm, hand.times_s, 1), {1.0, 2.0});
   CHECK(askew.is_good());
   CHECK(sweep_quality(
             slid(std::vector<double>(20, 0.0), std::vector<double>(hand.times_s.begin(), hand.times_s.begin() + 20)),
             {1.0, 2.0})
             .is_good());  // a hand at rest does not slide
+
+  std::vector<TrackedPicture> deeper = slid(hand.places_mm, hand.times_s);
+  const auto another = rectangle_region(60, 40, {0, 0, 60, 40});  // as of another depth
+  for (std::size_t n = 20; n < deeper.size(); ++n) {
+    deeper[n].region = another;
+    deeper[n].patient_from_pixel = deeper[n].patient_from_pixel * glm::dmat4(glm::dmat3(2.0));
+  }
+  CHECK(sweep_quality(deeper, {1.0, 2.0}).slid_mm < 1e-6);
 }

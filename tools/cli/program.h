@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <string>
@@ -76,21 +77,28 @@ inline void refuse_unusable(const CLI::App& arguments) {
   for (const CLI::App* command : arguments.get_subcommands()) refuse_unusable(*command);
 }
 
-/// Returns the first option of the command line that the program does not have, as the problem and the remedy of a
-/// sentence; empty if it has all. CLI11 reads its value for a file, and may name that alone.
+/// Returns the first long option of the command line that neither the program nor a command of it has, as the problem
+/// and the remedy of a sentence; empty if it has all. CLI11 reads the value of such an option for a file, and may
+/// complain about that.
 inline std::string unknown_option(const CLI::App& arguments, int argc, char** argv) {
-  std::vector<std::string> known;
+  std::map<std::string, bool> known;  // whether they take a value
   const std::function<void(const CLI::App&)> gather = [&](const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    for (const CLI::App* chosen : app.get_subcommands()) gather(*chosen);
+      for (const std::string& name : option->get_lnames()) known["--" + name] = option->get_items_expected_max() > 0;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) gather(*command);
   };
   gather(arguments);
   for (int i = 1; i < argc && std::strcmp(argv[i], "--") != 0; ++i) {
-    const std::string given = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-    if (!given.starts_with("--") || std::ranges::find(known, given) != known.end()) continue;
-    const auto similar = similar_name(given, known);
-    return "it has no option '" + in_one_line(given) + "'" + (similar ? "; did you mean '" + *similar + "'?" : "");
+    const std::string given = argv[i], name = given.substr(0, given.find('='));
+    if (!name.starts_with("--")) continue;
+    if (const auto found = known.find(name); found != known.end()) {
+      if (found->second && name == given) ++i;  // its value may begin with -- too
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& [other, takes_value] : known) names.push_back(other);
+    const auto similar = similar_name(name, names);
+    return "it has no option '" + in_one_line(name) + "'" + (similar ? "; did you mean '" + *similar + "'?" : "");
   }
   return "";
 }
@@ -129,7 +137,10 @@ inline int run_program(CLI::App& arguments, int argc, char** argv, const std::fu
     std::string command = arguments.get_name(), problem = in_one_line(error.what());
     for (const CLI::App* mode : arguments.get_subcommands()) command += " " + mode->get_name();
     if (problem.ends_with('.')) problem.pop_back();
-    if (const std::string unknown = unknown_option(arguments, argc, argv); !unknown.empty()) problem = unknown;
+    const bool may_be_its_fault =
+        dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
+    if (may_be_its_fault)
+      if (const std::string unknown = unknown_option(arguments, argc, argv); !unknown.empty()) problem = unknown;
     std::fprintf(stderr, "%s: command line: %s '%s --help'.\n", arguments.get_name().c_str(),
                  (problem + (problem.ends_with('?') ? " See" : "; see")).c_str(), command.c_str());
     return 2;

@@ -57,6 +57,7 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
+  draw_tooltip(theme, row, mark.why);
 }
 
 /// Whether the sheet says why: where points are missing. The report says it of all.

@@ -1,6 +1,7 @@
 #include "app/panels/scan/ultrasound_panel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -84,18 +85,25 @@ void draw_mark(const Theme& theme, const Rect& panel, const Session& session) {
 Rect draw_annotations(const Theme& theme, const Rect& panel, const std::string& patient, const Machine& machine,
                       const PlaneOnScreen* plane) {
   Rect line{panel.x + theme.px(16), panel.y + theme.px(12), panel.w * 0.27f, theme.px(24)};
+  const std::array texts{machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
+                         "Depth " + depth_text(theme.look(), machine.depth_mm),
+                         formatted("Gain %+.0f dB", machine.gain_db),
+                         formatted("Range %.0f dB", machine.dynamic_range_db)};
   if (plane) {
+    const float margin = theme.px(12);
+    float width = std::min(text_width(theme.strong, patient), line.w), height = line.h;
+    for (const std::string& text : texts) {
+      width = std::max(width, text_width(theme.small_text, text));
+      height += theme.px(19);
+    }
     const ImVec2 dot = marker_dot(theme, *plane, machine.transducer());
-    const float text = std::min(text_width(theme.strong, patient), line.w), margin = theme.px(12);
-    if (dot.x < line.x + text + margin && dot.y > line.y - margin) line.y = dot.y + margin;
+    const bool covers = dot.x < line.x + width + margin && dot.y > line.y - margin && dot.y < line.y + height + margin;
+    if (covers) line.y = dot.y + margin;
   }
   draw_on_plate(theme, line, theme.strong, colour::kText, patient);
   line.y += line.h;
   line.h = theme.px(19);
-  for (const std::string& text :
-       {machine.transducer().title + formatted(", %.1f MHz", machine.frequency_mhz),
-        "Depth " + depth_text(theme.look(), machine.depth_mm), formatted("Gain %+.0f dB", machine.gain_db),
-        formatted("Range %.0f dB", machine.dynamic_range_db)}) {
+  for (const std::string& text : texts) {
     draw_on_plate(theme, line, theme.small_text, colour::kMuted, text);
     line.y += line.h;
   }
@@ -120,14 +128,11 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
                  lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
-std::string frozen_text(const Session& session) {
-  return session.machine().frozen ? "Frozen" : "";
-}
-
-std::string state_text(const Session& session, const PictureTools& tools) {
+/// @param prompts  whether it says what to do next
+std::string state_text(const Session& session, const PictureTools& tools, bool prompts) {
   if (session.stopped_at_edge()) return kStopWords;
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
-  return PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
+  return prompts && PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
 // Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.
@@ -234,8 +239,8 @@ bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
     draw_picture(theme, panel, *picture, pictures, session.machine(), shown_annotations(session, tools));
     // Before the picture's own item, which lies below. Nobody wants buttons in a picture that is saved.
     if (!is_saved) draw_picture_tools(theme, panel, session, tools, places);
-    take_mouse(theme, area, session, plane, tools);
-    double_clicked = is_double_clicked() && !PictureTools::ready(session);
+    if (!is_saved) take_mouse(theme, area, session, plane, tools);
+    double_clicked = !is_saved && is_double_clicked() && !PictureTools::ready(session);
   } else {
     draw_text(panel, theme.text, colour::kFaint, "Waiting for the probe", Align::centre);
   }
@@ -246,7 +251,7 @@ bool UltrasoundPanel::draw(const Theme& theme, const Rect& panel, Session& sessi
     below.y += below.h;
   }
   draw_mark(theme, panel, session);
-  draw_state(theme, below, session.lost_for_s(), is_saved ? frozen_text(session) : state_text(session, tools));
+  draw_state(theme, below, session.lost_for_s(), state_text(session, tools, !is_saved));
   draw_tracker_problem(theme, panel, session);
   return double_clicked;
 }

@@ -49,6 +49,16 @@ TEST_CASE("who takes the probe out of practice and gives it back goes on practis
   CHECK(session.runner() == nullptr);
 }
 
+TEST_CASE("who takes the probe out of an exam, and then practises, goes on practising with the tracker") {
+  Session session(tiny_loaded_case(), replay_of(searching_scan()));
+  session.advance(0);
+  session.take_probe();
+  session.start_over();
+  session.practise();
+  session.give_back_probe();
+  CHECK(session.activity() == Activity::practice);
+}
+
 TEST_CASE("who gives the probe back during steps of the learner's own begins the tracker's steps") {
   Session session(tiny_loaded_case(), replay_of(searching_scan()));
   session.advance(0);

@@ -123,6 +123,14 @@ button_of "$work/screen.png" "$(value tool_clear_x)" "$(value tool_clear_y)" "$w
 button_of "$saved" $(($(value tool_clear_x) - $(value ultrasound_x))) $(($(value tool_clear_y) - $(value ultrasound_y))) \
   "$work/without.png"
 [ "$(different "$work/button.png" "$work/without.png")" -gt 300 ] || fail "the saved picture has a button"
+gain=$(value gain_db)
+xdotool key plus
+await "the gain changes" is_not gain_db "$gain"
+sleep 0.8
+xdotool key ctrl+z
+await "the gain is back" is gain_db "$gain"
+is_not placed "" || fail "the length went before the gain that was changed after it"
+sleep 0.8
 xdotool key ctrl+z
 await "the length is gone" is placed ""
 xdotool key space

@@ -166,5 +166,7 @@ TEST_CASE("an option that the program does not have is named, whatever else is w
   CHECK(unknown({"look", "--lg", "a", "b"}) == "it has no option '--lg'; did you mean '--log'?");
   CHECK(unknown({"closer", "--lgo"}) == "it has no option '--lgo'");
   CHECK(unknown({"--amount", "500"}).empty());
+  CHECK(unknown({"lok", "--log", "a", "b"}).empty());  // the command is misspelt, and the option is one of it
+  CHECK(unknown({"--out", "--strange", "--amount", "500"}).empty());  // --strange is a folder's name
   CHECK(unknown({"look", "a", "--", "--lgo"}).empty());
 }
