@@ -143,7 +143,7 @@ TEST_CASE("fewer than two pictures are not a sweep") {
   CHECK(Hand().quality().verdict() == "No sweep: it has fewer than two pictures.");
 }
 
-TEST_CASE("a probe that slides along its own picture is told to sweep across it") {
+TEST_CASE("a sweep along its own picture is not good, and the verdict says to sweep across it") {
   Hand hand;
   hand.go(40, 0.1);
   const SweepQuality along = sweep_quality(slid(hand.places_mm, hand.times_s, 10), {1.0, 2.0});
