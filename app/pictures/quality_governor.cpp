@@ -18,8 +18,8 @@ constexpr double kMuchTooSlow = 1.4;
 constexpr double kQuick = 0.72;
 /// The share that a decision aims at. Single frames take longer than the median, so the rate needs some time to spare.
 constexpr double kAim = 0.85;
-/// One view per two frames.
-constexpr int kFewestTurns = 2;
+/// One view per two frames, before the ultrasound gets fewer pixels; one per three frames, once it has the fewest.
+constexpr int kFewTurns = 2, kFewestTurns = 3;
 /// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
 constexpr double kQuickForAllViews = 0.45;
 /// Most by which one decision changes the quality.
@@ -53,14 +53,17 @@ void QualityGovernor::see_motion(double frame_s) {
 void QualityGovernor::decide(double frame_s) {
   const double share = frame_s / kFrame_s;
   if (share > kSlow) {
-    if (turns_of_motion_ < kFewestTurns) {
-      turns_of_motion_ = share > kMuchTooSlow ? kFewestTurns : turns_of_motion_ + 1;
-      return;
-    }
-    of_motion_ = std::max(kMin, of_motion_ * std::max(kMinStep, std::sqrt(kAim / share)));
+    if (turns_of_motion_ < kFewTurns)
+      turns_of_motion_ = share > kMuchTooSlow ? kFewTurns : turns_of_motion_ + 1;
+    else if (of_motion_ > kMin)
+      of_motion_ = std::max(kMin, of_motion_ * std::max(kMinStep, std::sqrt(kAim / share)));
+    else
+      turns_of_motion_ = kFewestTurns;
+  } else if (share < kQuick && turns_of_motion_ == kFewestTurns) {
+    turns_of_motion_ = kFewTurns;
   } else if (share < kQuick && of_motion_ < 1) {
     of_motion_ = std::min(1.0, of_motion_ * std::min(kMaxStep, std::sqrt(kAim / share)));
-  } else if (share < (turns_of_motion_ == kFewestTurns ? kQuick : kQuickForAllViews)) {
+  } else if (share < (turns_of_motion_ == kFewTurns ? kQuick : kQuickForAllViews)) {
     turns_of_motion_ = std::max(0, turns_of_motion_ - 1);
   }
 }

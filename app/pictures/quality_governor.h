@@ -6,9 +6,9 @@ namespace insonate {
 
 /// Decides what the window leaves out while the picture moves, on a machine that cannot draw everything 30 times a
 /// second. First the views beside the ultrasound take turns, one per frame and then one per two frames. Then the
-/// ultrasound gets fewer pixels. Once
-/// the picture stands still everything is drawn in full, so that close inspection and measurements do not depend on the
-/// speed of the machine. A moving picture that is recorded keeps the pixels that it was drawn with.
+/// ultrasound gets fewer pixels, and samples along its lines. At last the other views have one turn per three frames.
+/// Once the picture stands still everything is drawn in full, so that close inspection and measurements do not depend
+/// on the speed of the machine. A moving picture that is recorded keeps the pixels that it was drawn with.
 class QualityGovernor {
 public:
   static constexpr double kMin = 0.6;
@@ -21,8 +21,8 @@ public:
 
   /// Returns the share of the screen's pixels along each side for the next frame, kMin to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
-  /// Returns how many frames one of the views beside the ultrasound has for itself: 0 (all are drawn in each frame), 1
-  /// or 2.
+  /// Returns per how many frames one of the views beside the ultrasound is drawn: 0 (all are drawn in each frame), or 1
+  /// to 3.
   int frames_per_turn() const { return moves_ ? turns_of_motion_ : 0; }
 
   /// To be called once per frame.

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/panels/scan/annotation_layer.h"
 #include "app/panels/scan/exam_panel.h"
@@ -151,28 +156,72 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
 }
 
-/// Covers the fan's edge by a smooth line of the background's colour: the picture has no half-covered pixels there, and
-/// may have fewer pixels than the screen.
-void smooth_edge(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
-  constexpr float kThickness = 3;
-  ImDrawList* list = ImGui::GetWindowDrawList();
+/// Returns the fan's outline on the screen. It ends half a line beyond the outer lines.
+std::vector<ImVec2> fan_outline(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
   Probe outlined = probe;
   outlined.lines = 128;
   const ScanLines fan = scan_lines(outlined, depth_mm, 1);
   const auto end = [&](const ScanLine& line, double r_mm) { return glm::dvec2(line.start + r_mm * line.direction); };
-  // The fan ends half a line beyond its outer lines.
   const auto beyond = [&](std::size_t outer, std::size_t inner, double r_mm) {
     return 1.5 * end(fan.lines[outer], r_mm) - 0.5 * end(fan.lines[inner], r_mm);
   };
   const std::size_t last = fan.lines.size() - 1;
-  list->PathLineTo(at(plane, beyond(0, 1, 0)));
-  for (const ScanLine& line : fan.lines) list->PathLineTo(at(plane, end(line, 0)));
-  list->PathLineTo(at(plane, beyond(last, last - 1, 0)));
-  list->PathLineTo(at(plane, beyond(last, last - 1, depth_mm)));
+  std::vector<ImVec2> corners{at(plane, beyond(0, 1, 0))};
+  for (const ScanLine& line : fan.lines) corners.push_back(at(plane, end(line, 0)));
+  corners.push_back(at(plane, beyond(last, last - 1, 0)));
+  corners.push_back(at(plane, beyond(last, last - 1, depth_mm)));
   for (auto line = fan.lines.rbegin(); line != fan.lines.rend(); ++line)
-    list->PathLineTo(at(plane, end(*line, depth_mm)));
-  list->PathLineTo(at(plane, beyond(0, 1, depth_mm)));
-  list->PathStroke(colour::kImage, ImDrawFlags_Closed, kThickness);
+    corners.push_back(at(plane, end(*line, depth_mm)));
+  corners.push_back(at(plane, beyond(0, 1, depth_mm)));
+  return corners;
+}
+
+constexpr float kEdge = 3;  // thickness of the line along the fan's edge
+
+/// Covers the fan's edge by a smooth line of the background's colour: the picture has no half-covered pixels there, and
+/// may have fewer pixels than the screen.
+void smooth_edge(const std::vector<ImVec2>& outline) {
+  ImGui::GetWindowDrawList()->AddPolyline(outline.data(), int(outline.size()), colour::kImage, ImDrawFlags_Closed,
+                                          kEdge);
+}
+
+/// How far an outline reaches to the left and to the right; left is above right if it does not come there at all.
+struct Reach {
+  float left = std::numeric_limits<float>::max(), right = std::numeric_limits<float>::lowest();
+};
+
+/// Returns how far an outline reaches between two heights.
+Reach reach_between(const std::vector<ImVec2>& outline, float top, float bottom) {
+  Reach reach;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const ImVec2 a = outline[i], b = outline[(i + 1) % outline.size()];
+    if (std::max(a.y, b.y) < top || std::min(a.y, b.y) > bottom) continue;
+    for (const ImVec2& corner : {a, b}) {
+      const float y = std::clamp(corner.y, top, bottom);
+      const float x = y == corner.y ? corner.x : a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+      reach.left = std::min(reach.left, x);
+      reach.right = std::max(reach.right, x);
+    }
+  }
+  return reach;
+}
+
+/// Draws the fan in two halves, each as wide as the fan is there. What lies beside them stays black, and a new picture
+/// changes nothing there that would have to be drawn and shown again. More parts would not pay: a software renderer
+/// takes as long for another part of the window as for some 20,000 pixels.
+void draw_fan(const Rect& area, const gl::Texture& picture, const std::vector<ImVec2>& outline, bool mirrored,
+              ImU32 tint) {
+  const auto u = [&](float x) { return mirrored ? 1 - (x - area.x) / area.w : (x - area.x) / area.w; };
+  const auto v = [&](float y) { return (y - area.y) / area.h; };
+  const float middle = std::round(area.y + area.h / 2);
+  for (const auto& [top, bottom] : {std::pair(area.y, middle), std::pair(middle, area.y + area.h)}) {
+    const Reach reach = reach_between(outline, top - kEdge, bottom + kEdge);
+    const float left = std::max(std::floor(reach.left - kEdge), area.x);
+    const float right = std::min(std::ceil(reach.right + kEdge), area.x + area.w);
+    if (left >= right) continue;
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), {left, top},
+                                         {right, bottom}, {u(left), v(top)}, {u(right), v(bottom)}, tint);
+  }
 }
 
 /// Draws the picture with its scales and annotations.
@@ -181,10 +230,9 @@ void draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& pict
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   const bool mirrored = theme.look().marker == MarkerSide::left;
-  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.name())), area.min(),
-                                       area.max(), {mirrored ? 1.0f : 0.0f, 0}, {mirrored ? 0.0f : 1.0f, 1},
-                                       colour::of(theme.look().tint));
-  smooth_edge(plane, machine.transducer(), machine.depth_mm);
+  const std::vector<ImVec2> outline = fan_outline(plane, machine.transducer(), machine.depth_mm);
+  draw_fan(area, picture, outline, mirrored, colour::of(theme.look().tint));
+  smooth_edge(outline);
   draw_depth_scale(theme, panel, plane, machine.depth_mm);
   draw_marker(theme, plane, machine.transducer());
   const float bottom = draw_annotations(theme, panel, plane, annotations);

@@ -97,6 +97,19 @@ TEST_CASE("the views beside the ultrasound give way first, and within half a sec
   }
 }
 
+TEST_CASE(
+    "with the fewest pixels the other views wait longer, and have their turns again before there are more pixels") {
+  Run run;
+  while (run.governor.quality() > QualityGovernor::kMin || run.governor.frames_per_turn() < 3) {
+    if (run.governor.frames_per_turn() == 3) CHECK(run.governor.quality() == QualityGovernor::kMin);
+    REQUIRE(run.now_s < 1010);
+    run.frame(0.08, true);
+  }
+  while (run.governor.frames_per_turn() == 3) run.frame(0.02, true);
+  CHECK(run.governor.frames_per_turn() == 2);
+  CHECK(run.governor.quality() == QualityGovernor::kMin);
+}
+
 TEST_CASE("a machine that can keep up again draws all pixels again, and one at its limit does not waver") {
   Run run;
   run.move(1000, 0.08);

@@ -79,6 +79,24 @@ TEST_CASE("fewer pixels are drawn of a picture that changes, and never of one th
   CHECK(width_at(0.7) == 280);
 }
 
+TEST_CASE("a picture of few pixels has half of the samples, as the quality fast has, unless that is exact") {
+  const test::TestContext context;
+  const TrainerFolder folder;
+  const auto pixels = [&](Quality level, double share) {
+    Options options = folder.options();
+    options.quality = name_of(level);
+    Trainer trainer(options);
+    trainer.open_from_options();
+    trainer.finish_loading();
+    trainer.update(0.5);
+    trainer.draw({400, 300, 160, 120}, {.quality = share});
+    return read_back(*trainer.pictures().ultrasound()).pixels;
+  };
+  INFO("fast has three quarters of the pixels, whatever the share: 0.6 and 0.75 x 0.8 are as many");
+  CHECK((pixels(Quality::balanced, 0.6) == pixels(Quality::fast, 0.8)));
+  CHECK((pixels(Quality::balanced, 0.6) != pixels(Quality::exact, 0.6)));
+}
+
 TEST_CASE("a shader that builds as it is and not for other settings is reported, and the trainer goes on") {
   const test::TestContext context;
   const TrainerFolder folder;
