@@ -246,6 +246,12 @@ void Screen::draw_session(Trainer& trainer) {
     case ConsoleRequest::brief:
       trainer.brief();
       break;
+    case ConsoleRequest::switch_holder:
+      switch_holder(trainer);
+      break;
+    case ConsoleRequest::practise:
+      practise(trainer);
+      break;
     case ConsoleRequest::none:
       break;
   }
@@ -324,10 +330,12 @@ bool Screen::takes_exam(const Trainer& trainer) {
   return session && session->strict() && !session->result();
 }
 
-/// Returns whether the person has asked for the same up to kAsked_s ago.
+/// Returns whether the person has asked for the same up to kAsked_s ago. After that they are asked anew.
 bool Screen::asked_before(double& last_s) {
   const double now_s = ImGui::GetTime();
-  return now_s - std::exchange(last_s, now_s) < kAsked_s;
+  const bool again = now_s - last_s < kAsked_s;
+  last_s = again ? -kAsked_s : now_s;
+  return again;
 }
 
 void Screen::toggle_effects(Trainer& trainer) {
@@ -344,10 +352,10 @@ void Screen::begin_setup(Trainer& trainer) {
     show_note("This exam counts: go on to its end, then the tracker can be set up");
   else if (trainer.loses_by_leaving())
     show_note("Leave these steps first (Escape): the set-up would end them");
-  else if (trainer.loses_sweep() && !asked_before(asked_to_set_up_s_))
-    show_note("The set-up may lose the sweep: save it (U, then S), or press F2 once more");
-  else if (trainer.setup_leaves() && !asked_before(asked_to_set_up_s_))
-    show_note("Nothing here has a sensor to set up. F2 once more leaves the scan for the choice of a tracker");
+  else if ((trainer.loses_sweep() || trainer.setup_leaves()) && !asked_before(asked_to_set_up_s_))
+    show_note(trainer.loses_sweep()
+                  ? "The set-up may lose the sweep: save it (U, then S), or press F2 once more"
+                  : "Nothing here has a sensor to set up. F2 once more leaves the scan for the choice of a tracker");
   else
     trainer.begin_setup();
 }
@@ -356,9 +364,22 @@ void Screen::switch_holder(Trainer& trainer) {
   Session& session = *trainer.session();
   if (takes_exam(trainer)) return show_note("This exam counts: the probe stays with the tracker");
   if (session.only_learner()) return show_note("Mouse and keyboard move the probe already: there is no tracker");
-  if (trainer.loses_by_leaving() && !asked_before(asked_to_switch_s_))
-    return show_note("Tab ends these steps: press it once more to go on without them");
+  if (keeps_steps(trainer)) return;
   trainer.attempt([&] { session.holder() == Holder::learner ? session.give_back_probe() : session.take_probe(); });
+}
+
+void Screen::practise(Trainer& trainer) {
+  if (keeps_steps(trainer)) return;
+  Session& session = *trainer.session();
+  // In a recorded scan no hand moves the probe, so practice must take it.
+  std::as_const(session).source().recording() ? session.take_probe() : session.practise();
+}
+
+/// Asks for a second time before steps that are under way are lost. Returns whether they go on for now.
+bool Screen::keeps_steps(const Trainer& trainer) {
+  if (!trainer.loses_by_leaving() || asked_before(asked_to_leave_steps_s_)) return false;
+  show_note("That ends these steps: once more goes on without them");
+  return true;
 }
 
 /// A large view hides the panels, so that their buttons lead out of it.

@@ -74,6 +74,8 @@ public:
   void begin_setup(Trainer& trainer);
   /// Takes the probe from the tracker or gives it back. If this ends steps, it has to be called twice within 6 s.
   void switch_holder(Trainer& trainer);
+  /// Leaves the steps for practice. If they are under way, it has to be called twice within 6 s.
+  void practise(Trainer& trainer);
   /// Makes a view large, or all views as they were if one is.
   void enlarge(View view) { large_ = large_ ? std::nullopt : std::optional(view); }
   const std::optional<View>& large() const { return large_; }
@@ -184,6 +186,7 @@ private:
   static bool takes_exam(const Trainer& trainer);
   static bool hides_anatomy(const Trainer& trainer) { return trainer.session() && !trainer.session()->shows_anatomy(); }
   bool asked_before(double& last_s);
+  bool keeps_steps(const Trainer& trainer);
   void draw_time_runs_on(const Session& session);
   Overlay top_page() const { return pages_.empty() ? Overlay::none : pages_.back(); }
   void show_page(Overlay page);
@@ -210,7 +213,7 @@ private:
   CtPanel ct_panel_;
   LookPanel look_panel_;
   Aside aside_ = Aside::none;
-  double asked_to_switch_s_ = -1000, asked_to_set_up_s_ = -1000, asked_to_quit_s_ = -1000;
+  double asked_to_leave_steps_s_ = -1000, asked_to_set_up_s_ = -1000, asked_to_quit_s_ = -1000;
   RecordedPanel recorded_panel_;
   VolumePage volume_page_;
   OpenDialog open_dialog_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/tissue/acoustic_volume.h"
 #include "sim/tissue/skin_contact.h"
 
 namespace insonate {
@@ -37,32 +38,34 @@ glm::dmat3 orthonormal(const glm::dmat3& m) {
   return glm::mat3_cast(glm::normalize(glm::quat_cast(m)));
 }
 
-/// Returns the grid's axis that runs from feet to head.
-int long_axis(const Grid& grid) {
-  int along = 2;
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[along].z)) along = axis;
-  return along;
-}
-
-/// A place along the long axis.
+/// A place along the axis from feet to head.
 struct Slice {
   double number;  ///< whole numbers are the slices' middles
   double last;    ///< the last slice's number
   bool in_ct() const { return number >= 0 && number <= last; }
 };
 Slice slice_of(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
-  const int along = long_axis(ct.grid);
+  const int along = feet_head_axis(ct.grid);
   return {ct.grid.index_from_patient(point)[along], double(ct.grid.size[along] - 1)};
 }
 
-/// Returns whether there is body in every direction across the long axis: the point lies in the body or in air inside
-/// it, such as a lung's.
+/// Returns whether a point lies where the CT's end absorbs sound: a picture there is dark.
+bool in_end(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
+  return to_end_mm(ct.grid, point) < end_slices(ct.grid) * ct.grid.spacing[feet_head_axis(ct.grid)];
+}
+
+/// Returns whether a slide leads into an end of the CT, or farther towards it.
+bool enters_end(const Volume<std::int16_t>& ct, const glm::dvec3& from, const glm::dvec3& to) {
+  return in_end(ct, to) && to_end_mm(ct.grid, to) < to_end_mm(ct.grid, from);
+}
+
+/// Returns whether there is body in every direction across the axis from feet to head: the point lies in the body or in
+/// air inside it, such as a lung's.
 bool encloses(const Volume<std::int16_t>& ct, const glm::dvec3& point) {
   constexpr int kDirections = 16;
   constexpr double kWidest_mm = 600;
   const glm::dmat3& axes = ct.grid.direction;
-  const int along = long_axis(ct.grid);
+  const int along = feet_head_axis(ct.grid);
   for (int i = 0; i < kDirections; ++i) {
     const double angle = glm::two_pi<double>() * i / kDirections;
     const glm::dvec3 across = std::cos(angle) * axes[(along + 1) % 3] + std::sin(angle) * axes[(along + 2) % 3];
@@ -116,7 +119,7 @@ std::optional<glm::dvec3> ProbeHand::inward(const glm::dvec3& point) const {
   std::optional<glm::dvec3> normal = towards_body(*ct_, point);
   for (int round = 0; normal && round < kRounds; ++round) {
     const glm::dmat3& axes = ct_->grid.direction;
-    const int along = long_axis(ct_->grid);
+    const int along = feet_head_axis(ct_->grid);
     const glm::dvec3 axis = axes[std::abs(glm::dot(*normal, axes[along])) < 0.9 ? along : (along + 1) % 3];
     const glm::dvec3 x = kSlope_mm * glm::normalize(glm::cross(*normal, axis)), z = glm::cross(x, *normal);
     // Beyond an outline the line goes on to other skin, which does not belong to this slope.
@@ -148,13 +151,13 @@ std::optional<Pose> ProbeHand::slide(const Pose& from, const glm::dvec2& mm) con
   const Pose aside{from.rotation, from.point({mm.x, 0, mm.y})};
   const auto old = contact(from), reached = contact(aside);
   if (!old) return aside;
-  if (!reached) return std::nullopt;
+  if (!reached || enters_end(*ct_, old->point, reached->point)) return std::nullopt;
   return settle(from, *old, *reached);
 }
 
 std::optional<ProbeHand::Slide> ProbeHand::slide_to(const Pose& from, const Pose& to) const {
   const auto old = contact(from), reached = contact(to);
-  if (!old || !reached) return std::nullopt;
+  if (!old || !reached || enters_end(*ct_, old->point, reached->point)) return std::nullopt;
   return Slide{settle(from, *old, *reached), reached->point - old->point};
 }
 
@@ -190,7 +193,7 @@ Pose ProbeHand::turn(const Pose& from, double tilt_deg, double rotation_deg, dou
 std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const {
   constexpr double kSight_mm = 3000;
   const auto met = skin(eye, direction, kSight_mm);
-  if (!met) return std::nullopt;
+  if (!met || in_end(*ct_, *met)) return std::nullopt;
   const glm::dvec3 normal = inward(*met).value_or(direction);
   const auto old = contact(from);
   if (!old || glm::dot(old->inward, from.rotation[1]) < kMinFacing)

@@ -11,7 +11,8 @@
 namespace insonate {
 
 /// Computes how mouse and keyboard move a probe: over the skin, as a hand would. Poses are patient_from_probe. The
-/// faces at which the CT cuts the body towards head and feet are not skin. Keeps a reference to the CT.
+/// faces at which the CT cuts the body towards head and feet are not skin, and the probe stops where these ends begin
+/// to absorb sound (end_slices()): farther on its picture would be black. Keeps a reference to the CT.
 class ProbeHand {
 public:
   explicit ProbeHand(const Volume<std::int16_t>& ct) : ct_(&ct) {}

@@ -33,11 +33,8 @@ double texture_hu(double hu_above_mean) {
 /// The slices at the head's and the feet's end in which sound is lost.
 class Ends {
 public:
-  explicit Ends(const Grid& grid) : axis_(feet_head_axis(grid)) {
-    slices_ = std::max(2, int(std::lround(kEnd_mm / grid.spacing[axis_])));
-    last_ = grid.size[axis_] - 1;
-    if (grid.size[axis_] < 4 * slices_) slices_ = 0;
-  }
+  explicit Ends(const Grid& grid)
+      : axis_(feet_head_axis(grid)), slices_(end_slices(grid)), last_(grid.size[axis_] - 1) {}
   bool contain(const glm::ivec3& i) const { return distance(i) < slices_; }
   double echogenicity_db(const glm::ivec3& i) const {
     return kMinEchogenicity_db + double(slices_ - distance(i)) / slices_ * (kEnd_db - kMinEchogenicity_db);
@@ -190,6 +187,12 @@ int feet_head_axis(const Grid& grid) {
   for (int axis = 1; axis < 3; ++axis)
     if (std::abs(grid.direction[axis].z) > std::abs(grid.direction[along].z)) along = axis;
   return along;
+}
+
+int end_slices(const Grid& grid) {
+  const int axis = feet_head_axis(grid);
+  const int slices = std::max(2, int(std::lround(kEnd_mm / grid.spacing[axis])));
+  return grid.size[axis] < 4 * slices ? 0 : slices;
 }
 
 double to_end_mm(const Grid& grid, const glm::dvec3& point) {

@@ -40,6 +40,8 @@ inline constexpr double kEnd_db = -160;  // of the outermost slice
 
 /// Returns the grid's axis that runs most nearly along the patient's, from feet to head.
 int feet_head_axis(const Grid& grid);
+/// Returns how many slices at each of these ends absorb sound.
+int end_slices(const Grid& grid);
 /// Returns the distance of a point of the patient from the nearer of these ends along that axis, mm; below 0 beyond.
 double to_end_mm(const Grid& grid, const glm::dvec3& point);
 

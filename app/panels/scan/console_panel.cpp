@@ -182,7 +182,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
                     session.strict() ? "This exam counts: the probe stays with the tracker."
                     : learner        ? "The tracker moves the probe again, from the beginning  (Tab)"
                                      : "Mouse and keys move the probe from here on  (Tab)")) {
-    attempt([&] { learner ? session.give_back_probe() : session.take_probe(); });
+    request = ConsoleRequest::switch_holder;
   }
   if (button(theme, "help", lower.take_left(theme.px(86)), "Help", ButtonKind::normal, true,
              "What the keys and the mouse do  (F1)"))
@@ -201,8 +201,7 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
                     session.loaded_case().scenario.has_value() && !session.strict(),
                     session.strict() ? "This exam counts: practice is there when it is over."
                                      : "Scans without steps, clock and score")) {
-    // In a recorded scan no hand moves the probe, so practice must take it.
-    std::as_const(session).source().recording() ? session.take_probe() : session.practise();
+    request = ConsoleRequest::practise;
   }
   if (button(theme, "open", lower, "Open", ButtonKind::normal, !session.strict(),
              session.strict() ? "This exam counts: go on to its end, then something else can be opened."

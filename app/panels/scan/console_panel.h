@@ -11,7 +11,7 @@
 namespace insonate::ui {
 
 /// Requests of the console's buttons that go beyond the session.
-enum class ConsoleRequest { none, help, open, brief };
+enum class ConsoleRequest { none, help, open, brief, switch_holder, practise };
 
 /// Returns the height that a console of that width needs: more if the text is too large for names and values of the
 /// knobs to stand beside each other.

@@ -35,7 +35,7 @@ await "Tab takes the probe after its end too" is holder learner
 is activity exam || fail "there is nothing to try"
 is overlay "" || fail "somebody else's score lies over the window"
 xdotool key Tab
-await "Tab says that it ends the steps" contains toast "press it once more"
+await "Tab says that it ends the steps" contains toast "once more"
 is demonstration false || fail "the steps have ended at once"
 xdotool key Tab
 await "Tab gives it back, and the demonstration begins anew" is demonstration true
@@ -69,6 +69,16 @@ await "the steps are explained first" is overlay briefing
 xdotool key Escape
 await "Escape leads back" is overlay ""
 is activity practice || fail "it leads to $(value activity)"
+click_on steps
+await "the steps are explained again" is overlay briefing
+xdotool key Return
+await "Return begins them" is activity exam
+await "the time runs" is_not elapsed_s 0.0
+click_on practice
+await "the button for practice says that it ends them" contains toast "once more"
+is activity exam || fail "the steps have ended at once"
+click_on practice
+await "a second click leaves them for practice" is activity practice
 click_on steps
 await "the steps are explained again" is overlay briefing
 xdotool key Return
