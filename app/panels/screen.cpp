@@ -478,7 +478,9 @@ void Screen::forget_old_toast(const Trainer& trainer) {
   const std::array<const void*, 5> pages{trainer.start_page(), trainer.learners_page(), trainer.check_page(),
                                          trainer.replay(), trainer.session()};
   const auto shown = std::ranges::find_if(pages, [](const void* page) { return page != nullptr; });
-  const void* const page = shown == pages.end() ? nullptr : *shown;
+  // A score sheet is a page of its own: what was said of the last step does not belong to it.
+  const bool over = trainer.session() && trainer.session()->result();
+  const std::pair page{shown == pages.end() ? nullptr : *shown, over};
   if (std::exchange(toast_page_, page) != page && !toast_.names_file()) toast_.hide();
 }
 

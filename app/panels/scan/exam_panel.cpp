@@ -99,7 +99,7 @@ void draw_hold(const Theme& theme, const Rect& where, const Session& session, co
   const Rect lower{upper.x, upper.y + upper.h, upper.w, theme.px(20)};
   draw_text(upper, theme.strong, on_target ? colour::kAccent : colour::kText, progress_text(live, words));
   draw_text(lower, theme.small_text, colour::kMuted,
-            live.finished && session.source().recording() ? "the recorded scan is over"
+            live.finished && session.source().recording() ? "the scan is over"
             : live.finished                               ? "F4: the score sheet"
             : !live.started                               ? "not started"
             : live.on_skin                                ? "probe on the skin"

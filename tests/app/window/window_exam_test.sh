@@ -178,6 +178,7 @@ await "it is typed" is draft 41.7
 ! far_enough || fail "what was typed moved the probe"
 xdotool key Return
 await "the exam ends" is overlay score
+is toast "" || fail "the sheet comes with words of the step before: $(value toast)"
 kill -0 "$trainer" || fail "the trainer ended by itself"
 
 echo "a sheet that was closed is shown again by its key and by its button"
