@@ -222,8 +222,8 @@ private:
   LearnersPanel learners_panel_;
   CheckPanel check_panel_;
   Toast toast_;
-  std::pair<const void*, bool>
-      toast_page_{};           ///< the page that was shown in the last frame, and whether steps were over
+  /// The page that was shown in the last frame, and whether steps were over.
+  std::pair<const void*, bool> toast_page_{};
   std::future<bool> opening_;  ///< of opened_, by the desktop
   std::filesystem::path opened_;
   /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.
