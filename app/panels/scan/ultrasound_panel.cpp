@@ -14,6 +14,7 @@
 #include "app/panels/scan/exam_panel.h"
 #include "app/panels/scan/picture_plates.h"
 #include "sim/core/text.h"
+#include "sim/view/plane_trace.h"
 
 namespace insonate::ui {
 namespace {
@@ -156,23 +157,9 @@ void draw_tracker_problem(const Theme& theme, const Rect& panel, const Session& 
   draw_paragraph(plate.inset(margin, margin), theme.text, colour::kText, problem);
 }
 
-/// Returns the fan's outline on the screen. It ends half a line beyond the outer lines.
-std::vector<ImVec2> fan_outline(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
-  Probe outlined = probe;
-  outlined.lines = 128;
-  const ScanLines fan = scan_lines(outlined, depth_mm, 1);
-  const auto end = [&](const ScanLine& line, double r_mm) { return glm::dvec2(line.start + r_mm * line.direction); };
-  const auto beyond = [&](std::size_t outer, std::size_t inner, double r_mm) {
-    return 1.5 * end(fan.lines[outer], r_mm) - 0.5 * end(fan.lines[inner], r_mm);
-  };
-  const std::size_t last = fan.lines.size() - 1;
-  std::vector<ImVec2> corners{at(plane, beyond(0, 1, 0))};
-  for (const ScanLine& line : fan.lines) corners.push_back(at(plane, end(line, 0)));
-  corners.push_back(at(plane, beyond(last, last - 1, 0)));
-  corners.push_back(at(plane, beyond(last, last - 1, depth_mm)));
-  for (auto line = fan.lines.rbegin(); line != fan.lines.rend(); ++line)
-    corners.push_back(at(plane, end(*line, depth_mm)));
-  corners.push_back(at(plane, beyond(0, 1, depth_mm)));
+std::vector<ImVec2> outline_on_screen(const PlaneOnScreen& plane, const Probe& probe, double depth_mm) {
+  std::vector<ImVec2> corners;
+  for (const glm::dvec2& corner : view::fan_outline(probe, depth_mm)) corners.push_back(at(plane, corner));
   return corners;
 }
 
@@ -230,7 +217,7 @@ void draw_picture(const Theme& theme, const Rect& panel, const gl::Texture& pict
   const Rect area = UltrasoundPanel::picture_area(theme, panel);
   const PlaneOnScreen plane = UltrasoundPanel::plane(theme, panel, pictures);
   const bool mirrored = theme.look().marker == MarkerSide::left;
-  const std::vector<ImVec2> outline = fan_outline(plane, machine.transducer(), machine.depth_mm);
+  const std::vector<ImVec2> outline = outline_on_screen(plane, machine.transducer(), machine.depth_mm);
   draw_fan(area, picture, outline, mirrored, colour::of(theme.look().tint));
   smooth_edge(outline);
   draw_depth_scale(theme, panel, plane, machine.depth_mm);
