@@ -7,6 +7,12 @@
 namespace insonate::gl {
 namespace {
 
+Object<VertexArrayKind> empty_vertex_array() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return Object<VertexArrayKind>(name);
+}
+
 std::string why_refused(int width, int height, int depth, int limit) {
   const std::string texture =
       "a texture of " + std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(depth);
@@ -246,16 +252,22 @@ void Framebuffer::copy_to(GLuint framebuffer, glm::ivec2 first, glm::ivec2 end) 
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-FullScreenTriangle::FullScreenTriangle() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  object_ = Object<VertexArrayKind>(name);
-}
+FullScreenTriangle::FullScreenTriangle() : object_(empty_vertex_array()) {}
 
 void FullScreenTriangle::draw() const {
   glBindVertexArray(object_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
+}
+
+Points::Points() : object_(empty_vertex_array()) {}
+
+void Points::draw(int count, float size_px) const {
+  glPointSize(size_px);
+  glBindVertexArray(object_.name());
+  glDrawArrays(GL_POINTS, 0, count);
+  glBindVertexArray(0);
+  glPointSize(1);
 }
 
 Timer::Timer() {

@@ -209,6 +209,17 @@ private:
   Object<VertexArrayKind> object_;
 };
 
+/// Draws points without data: the vertex shader makes their places from gl_VertexID.
+class Points {
+public:
+  Points();
+  /// @param size_px  side of the square that each point covers, 1 to 255
+  void draw(int count, float size_px) const;
+
+private:
+  Object<VertexArrayKind> object_;
+};
+
 struct QueryKind {
   static void destroy(GLuint name) { glDeleteQueries(1, &name); }
 };

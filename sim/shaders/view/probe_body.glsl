@@ -1,8 +1,8 @@
 // The probe's housing as a signed distance, mm, in the probe's frame: a head that ends in the face, a grip, and the
-// marker on the +x side. The plain shape is this project's own. Face and marker are where a real probe has them.
+// marker on the +x side. The plain shape is this project's own. Face and marker are where a real probe has them. All of
+// it lies between probe_low and probe_high (box_of_probe() in sim/view/body/volume_view.cpp).
 
 const float kHeadDepth = 26.0, kHeadHalfThickness = 9.0, kGripLength = 115.0, kLens = 2.5;
-const vec4 kProbeSphere = vec4(0.0, -55.0, 0.0, 85.0);  // encloses the whole probe: centre, radius
 
 // Returns the distance beyond the face (< 0 within the head), and the distance beyond its lateral edge.
 vec2 face_distance(vec2 p) {
@@ -39,11 +39,10 @@ float probe_distance(vec3 p) {
 
 // Returns the distance along a ray to the probe, mm; -1 where the ray misses it.
 float meet_probe(vec3 origin, vec3 direction) {
-  vec3 towards = kProbeSphere.xyz - origin;
-  float middle = dot(towards, direction);
-  float half_chord2 = kProbeSphere.w * kProbeSphere.w - dot(towards, towards) + middle * middle;
-  if (half_chord2 <= 0.0) return -1.0;
-  float t = max(middle - sqrt(half_chord2), 0.0), end = middle + sqrt(half_chord2);
+  vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
+  vec3 a = (probe_low.xyz - origin) / safe, b = (probe_high.xyz - origin) / safe;
+  vec3 low = min(a, b), high = max(a, b);
+  float t = max(max(low.x, low.y), max(low.z, 0.0)), end = min(min(high.x, high.y), high.z);
   for (int i = 0; i < 64 && t < end; ++i) {
     float distance = probe_distance(origin + t * direction);
     if (distance < 0.1) return t;

@@ -1,7 +1,8 @@
 // The volume view while things move, second pass, in many pixels: the ultrasound's plane, the face of the cut and the
 // probe, sharp, between the layers that volume_layers.frag has drawn in few pixels.
 //
-// Reads the layers and what view/volume_ray.glsl lists. Writes the colour. Draw: full-screen pass.
+// Reads the layers and what view/volume_ray.glsl lists. Writes the colour. Draw: full-screen passes, each cut to where
+// what it draws can be seen.
 layout(binding = 5) uniform sampler2D front_layer;
 layout(binding = 6) uniform sampler2D back_layer;
 layout(binding = 7) uniform sampler2D before_probe_layer;
@@ -10,7 +11,16 @@ layout(location = 0) out vec4 colour;
 
 #include "view/volume_ray.glsl"
 
-// Loops stand for `if`, as in view/volume_ray.glsl.
+// The C++ side defines WITHOUT_PLANE where pixels show neither the plane nor the probe, and WITHOUT_PROBE where they do
+// not show the probe: a software renderer takes the time of all code for all pixels.
+#ifdef WITHOUT_PLANE
+void main() {
+  vec2 uv = gl_FragCoord.xy / picture.xy;
+  if (cut == 0) composite_layer(textureLod(front_layer, uv, 0.0));  // else it is cut away
+  composite_layer(textureLod(back_layer, uv, 0.0));
+  colour = over_background(2.0 * uv - 1.0);
+}
+#else
 void main() {
   vec2 uv = gl_FragCoord.xy / picture.xy, at = 2.0 * uv - 1.0;
   Ray ray = ray_at(at);
@@ -32,3 +42,4 @@ void main() {
   composite_probe(ray);
   colour = over_background(at);
 }
+#endif

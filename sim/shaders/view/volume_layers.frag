@@ -29,7 +29,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   Ray ray = ray_at(place_of(pixel));
   March march = march_of(ray, pixel);
-  bool plane_first = ray.t_plane < ray.t_probe, hidden = false;
+  bool plane_first = ray.t_plane < ray.t_probe, hidden = false, covered = false;
   front = vec4(0.0);
   before_probe = 0.0;
   for (int part = 0; part < 3; ++part) {  // to the plane and to the probe, whichever comes first, and to the end
@@ -37,12 +37,13 @@ void main() {
     if (!hidden) march_to(march, ray.direction, min(stop, ray.end));
     if (part == (plane_first ? 0 : 1) && ray.t_plane < kNever) {
       front = sum;
-      hidden = sum.a >= kOpaque || fan_covers(ray);
+      covered = fan_covers(ray);
+      hidden = sum.a >= kOpaque || covered;
       sum = vec4(0.0);
     }
     if (part == (plane_first ? 1 : 0) && ray.t_probe < kNever) before_probe = sum.a;
   }
-  back = sum;
+  back = covered ? vec4(0.0, 0.0, 0.0, 1.0) : sum;  // opaque, so that no silhouette shows there
   if (ray.t_plane >= kNever) {  // all of it is in front
     front = sum;
     back = vec4(0.0);

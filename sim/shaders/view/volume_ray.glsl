@@ -1,6 +1,7 @@
 // Ray casting for the volume view: what lies along a ray, and how it looks. To be included before one of the files that
 // march along the ray: organ_march.glsl or ct_march.glsl. It reads the CT, the ultrasound picture, and the tissue and
-// body textures.
+// body textures. The C++ side defines FEW_PIXELS for pictures of fewer pixels than the screen's, and WITHOUT_PROBE where
+// the rays do not meet the probe.
 
 #include "view/volume_view_parameters.h"
 #include "view/hounsfield.glsl"
@@ -20,6 +21,13 @@ const float kNever = 1e9;
 const vec3 kSkinColour = vec3(0.95, 0.78, 0.68);
 const vec3 kFanEdge = vec3(0.36, 0.72, 0.88);
 const float kCutWindow_hu = 400.0, kCutLevel_hu = 40.0;
+
+// Shares of the body between which the cut's face begins.
+#ifdef FEW_PIXELS
+const vec2 kCutEdge = vec2(0.7, 1.0);  // the skin, brighter than fat, is thinner than a pixel: it would be a line of dots
+#else
+const vec2 kCutEdge = vec2(0.4, 0.6);
+#endif
 
 vec4 sum = vec4(0.0);  // colour times opacity, opacity: what lies between the eye and the ray's present point
 
@@ -84,17 +92,22 @@ void composite_plane(vec3 patient, float t, float slant) {
   vec2 reach = picture.z * t / max(slant, 0.25) / image_mm;
   bool near_image = show_plane == 1 && all(greaterThan(uv, -reach)) && all(lessThan(uv, 1.0 + reach));
   for (bool todo = near_image; todo; todo = false) {
+    vec3 echo = textureLod(ultrasound_image, uv, 0.0).rgb;
+#ifdef FEW_PIXELS
+    float fan = fan_at(uv);
+#else
     // The share of the fan around the point.
     float fan = 0.25 * (fan_at(uv + reach * vec2(0.9, 0.4)) + fan_at(uv + reach * vec2(-0.4, 0.9)) +
                         fan_at(uv + reach * vec2(-0.9, -0.4)) + fan_at(uv + reach * vec2(0.4, -0.9)));
-    vec3 echo = textureLod(ultrasound_image, uv, 0.0).rgb;
-    composite(mix(kFanEdge, echo, fan_edge == 1 ? smoothstep(0.75, 1.0, fan) : 1.0), smoothstep(0.0, 0.5, fan));
+    echo = mix(kFanEdge, echo, smoothstep(0.75, 1.0, fan));
+#endif
+    composite(echo, smoothstep(0.0, 0.5, fan));
   }
   vec3 at = (tissue_from_patient * vec4(patient, 1.0)).xyz;
   bool in_box = all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(1.0)));
   float inside = 0.0;
   for (bool todo = cut == 1 && in_box && sum.a < kOpaque; todo; todo = false)
-    inside = smoothstep(0.4, 0.6, textureLod(body, at, 0.0).y);
+    inside = smoothstep(kCutEdge.x, kCutEdge.y, textureLod(body, at, 0.0).y);
   for (bool todo = inside > 0.0; todo; todo = false) {
     float hu = hounsfield((texture_from_patient * vec4(patient, 1.0)).xyz);
     float grey = clamp((hu - kCutLevel_hu) / kCutWindow_hu + 0.5, 0.0, 1.0);
@@ -128,8 +141,12 @@ Ray ray_at(vec2 at) {
   ray.t_plane = -ray.probe_eye.z / ray.probe_direction.z;
   bool meets_plane = ray.t_plane > 0.0 && ray.t_plane < kNever;  // false for a ray within the plane
   if (!meets_plane) ray.t_plane = kNever;
+#ifdef WITHOUT_PROBE
+  ray.t_probe = kNever;
+#else
   ray.t_probe = show_probe == 1 ? meet_probe(ray.probe_eye, ray.probe_direction) : -1.0;
   if (ray.t_probe < 0.0) ray.t_probe = kNever;
+#endif
 
   ray.box_origin = (tissue_from_patient * vec4(eye.xyz, 1.0)).xyz;
   ray.box_direction = mat3(tissue_from_patient) * ray.direction;

@@ -22,6 +22,8 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
 
   vec4 image_geometry;  // of the ultrasound: left and top edge in the probe's plane, mm; mm per pixel; unused
   vec4 probe_shape;     // radius of the face (0: flat), half its angle (rad) or half its width (mm), unused
+  vec4 probe_low;       // the box around the probe's housing (view/probe_body.glsl) in the probe's frame, mm
+  vec4 probe_high;
 
   float step_mm;
   float voxel_mm;  // of the tissue texture
@@ -39,10 +41,10 @@ layout(std140, binding = 0) uniform VolumeViewParameters {
   int skip_empty;  // whether empty cells are leapt over
   int body_only;   // whether the table is left out
 
-  int fan_edge;             // whether the fan's edge has a colour of its own: with few pixels it would be a broad band
   float structure_opacity;  // of the surfaces of structures within the CT
   int first_row;            // of the part that is drawn now; a fragment shader is cut to it
   int end_row;
+  int unused;
 #ifdef __cplusplus
 };
 }  // namespace insonate::view

@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "sim/gl/streamed_buffer.h"
 #include "sim/shaders/view/volume_view_parameters.h"
 #include "sim/view/body/classified_ct.h"
+#include "sim/view/body/picture_area.h"
 #include "sim/view/body/tissue_classes.h"
 #include "sim/view/picture_target.h"
 #include "sim/view/plane_state.h"
@@ -33,6 +35,18 @@ double step_mm(const PatientTextures& patient, int scale) {
 struct Rows {
   int first, end;
 };
+
+/// Returns the corners of a box around the probe's housing (view/probe_body.glsl) in the probe's frame, mm.
+std::array<glm::dvec3, 2> box_of_probe(const Probe& probe) {
+  constexpr double kGrip_mm = 20;   // more than half its thickness
+  constexpr double kMarker_mm = 5;  // how far it stands out at the side
+  constexpr double kLength_mm = 135;
+  const double half_width_mm = probe.kind == ProbeKind::curvilinear
+                                   ? probe.radius_mm * std::sin(glm::radians(probe.field_of_view_deg / 2))
+                                   : probe.width_mm / 2;
+  const double side_mm = std::max(half_width_mm + kMarker_mm, kGrip_mm);
+  return {glm::dvec3(-side_mm, -kLength_mm, -kGrip_mm), glm::dvec3(side_mm, 2, kGrip_mm)};
+}
 
 VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitCamera& camera,
                                     const UltrasoundPlane& plane, const VolumeStyle& style, int width, int height,
@@ -59,6 +73,9 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.image_geometry = glm::vec4(glm::vec2(g.top_left_mm - g.mm_per_pixel / 2), g.mm_per_pixel, 0);
   p.probe_shape = curved ? glm::vec4(plane.probe.radius_mm, glm::radians(plane.probe.field_of_view_deg / 2), 0, 0)
                          : glm::vec4(0, plane.probe.width_mm / 2, 0, 0);
+  const auto [low, high] = box_of_probe(plane.probe);
+  p.probe_low = glm::vec4(glm::vec3(low), 0);
+  p.probe_high = glm::vec4(glm::vec3(high), 0);
   p.step_mm = float(step_mm(patient, scale));
   p.voxel_mm = float(patient.tissue_voxel_mm());
   p.skin = float(style.skin);
@@ -67,7 +84,6 @@ VolumeViewParameters parameters_for(const PatientTextures& patient, const OrbitC
   p.show_plane = style.plane && plane.image;
   p.show_probe = style.probe;
   p.show_organs = style.organs;
-  p.fan_edge = scale == 1;
   p.first_row = rows.first;
   p.end_row = rows.end;
   if (style.ct) {
@@ -136,6 +152,10 @@ struct Layers {
     before_probe = gl::Texture::make_2d(GL_R8, width, height, gl::Filter::linear);
     framebuffer = gl::Framebuffer({&front, &back, &before_probe});
   }
+  void clear() const {
+    constexpr GLfloat kEmpty[4] = {};
+    for (GLint output = 0; output < 3; ++output) glClearBufferfv(GL_COLOR, output, kEmpty);
+  }
 };
 
 }  // namespace
@@ -148,14 +168,16 @@ struct VolumeView::State {
                         : std::vector<std::string>{"view/full_screen.vert", "view/volume_view.frag"},
               kDefines),
         layers_program(sources, {"view/full_screen.vert", "view/volume_layers.frag"}, kDefines),
-        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}, kDefines),
+        finish(sources, {"view/full_screen.vert", "view/volume_finish.frag"}),
+        silhouette(sources, {"view/silhouette.vert", "view/volume_view.frag"}, kDefines),
         classified(sources, shader) {}
 
   inline static const gl::Defines kDefines{{"VOXELS_PER_BLOCK", std::to_string(TissueClasses::kBlock)}};
   gl::Defines defines_for(const std::optional<CtVolumeStyle>& ct) const;
   bool by_groups;  // whole pictures are drawn by a compute shader
-  gl::Program whole, layers_program, finish;
+  gl::Program whole, layers_program, finish, silhouette;
   gl::FullScreenTriangle triangle;
+  gl::Points points;
   gl::StreamedBuffer parameters;
   ClassifiedCt classified;
   PictureTarget full, reduced;
@@ -170,16 +192,48 @@ struct VolumeView::State {
   int full_rows = 0;     // rows of the full picture drawn so far
   long renders = 0;
 
+  gl::Defines finish_defines(gl::Defines defines) const;
   void bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height, int coarseness, Rows rows);
   void draw_whole(const VolumeInputs& inputs, const UltrasoundPlane& plane, Rows rows);
   void cast_rays(const VolumeInputs& inputs, Rows rows);
   void draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane);
+  PictureArea draw_layers(const VolumeInputs& inputs, const UltrasoundPlane& plane);
+  void draw_silhouette(const VolumeInputs& inputs, const PictureArea& area, float pixels_per_layer);
 };
 
 namespace {
 
+/// Returns corners of all that composite_plane() in view/volume_ray.glsl can show: the picture, and the cut's face.
+std::vector<glm::dvec3> points_of_plane(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
+  std::vector<glm::dvec3> points;
+  if (inputs.style.cut)
+    points = cut_through(corners_of(inputs.patient->tissue_from_patient()), plane.patient_from_probe);
+  if (!inputs.style.plane || !plane.image) return points;
+  const ImageGeometry& g = plane.geometry;
+  const glm::dvec2 size_mm = g.mm_per_pixel * glm::dvec2(plane.image->width(), plane.image->height());
+  for (const double x : {0.0, size_mm.x})
+    for (const double y : {0.0, size_mm.y})
+      points.push_back(plane.patient_from_probe.point(glm::dvec3(g.top_left_mm + glm::dvec2(x, y), 0)));
+  return points;
+}
+
+std::vector<glm::dvec3> points_of_probe(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
+  if (!inputs.style.probe) return {};
+  const auto [low, high] = box_of_probe(plane.probe);
+  std::vector<glm::dvec3> points;
+  for (const double x : {low.x, high.x})
+    for (const double y : {low.y, high.y})
+      for (const double z : {low.z, high.z}) points.push_back(plane.patient_from_probe.point({x, y, z}));
+  return points;
+}
+
+// Restricts drawing to an area, which may be empty.
+void cut_to(const PictureArea& area) {
+  glScissor(area.first.x, area.first.y, area.end.x - area.first.x, area.end.y - area.first.y);
+}
+
 // Returns the finest scale up to `coarsest` that fits the budget. A finer scale than the last is chosen only if it fits
-// with room to spare, so that the picture does not flicker between two sharpnesses.
+// with room to spare, so that the picture does not flicker count two sharpnesses.
 int chosen_scale(Pace& pace, double full_pixels, double budget_ms, int last, int coarsest) {
   if (std::isinf(budget_ms)) return 1;
   const std::optional<double> pixel_ms = pace.pixel_ms();
@@ -204,6 +258,12 @@ gl::Defines VolumeView::State::defines_for(const std::optional<CtVolumeStyle>& c
           {"CT_SHADED", gl::flag(ct->shaded)},
           {"STRUCTURES", gl::flag(classified.shows_structures())},
           {"VOXELS_PER_CELL", std::to_string(MacroCells::kSide)}};
+}
+
+// Adds what view/volume_ray.glsl needs to know of the second pass.
+gl::Defines VolumeView::State::finish_defines(gl::Defines defines) const {
+  if (finish_scale > 1) defines.emplace_back("FEW_PIXELS", "");
+  return defines;
 }
 
 void VolumeView::State::bind(const VolumeInputs& inputs, const UltrasoundPlane& plane, int width, int height,
@@ -248,29 +308,58 @@ void VolumeView::State::cast_rays(const VolumeInputs& inputs, Rows rows) {
 }
 
 void VolumeView::State::draw_moving(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
-  const int coarse_width = scaled(inputs.width, scale), coarse_height = scaled(inputs.height, scale);
-  layers.resize(coarse_width, coarse_height);
-  bind(inputs, plane, coarse_width, coarse_height, scale, {0, coarse_height});
-  {
-    const ScopedDrawTarget drawing(layers.framebuffer, 0, coarse_height);
-    layers_program.define(defines_for(inputs.style.ct));
-    layers_program.use();
-    pace.begin(true);
-    triangle.draw();
-    pace.end(double(coarse_width) * coarse_height, true);
-  }
+  const PictureArea area = draw_layers(inputs, plane);
   const int width = scaled(inputs.width, finish_scale), height = scaled(inputs.height, finish_scale);
   reduced.resize(width, height);
-  bind(inputs, plane, width, height, finish_scale, {0, height});
+  bind(inputs, plane, width, height, scale, {0, height});
   layers.front.bind(5);
   layers.back.bind(6);
   layers.before_probe.bind(7);
   const ScopedDrawTarget drawing(reduced.framebuffer, 0, height);
-  finish.use();
   finish_pace.begin(true);
-  triangle.draw();
+  const auto draw = [&](const gl::Defines& without, const PictureArea& part) {
+    cut_to(part);
+    finish.define(without);
+    finish.use();
+    triangle.draw();
+  };
+  const auto around = [&](const std::vector<glm::dvec3>& of) { return area_of(of, inputs.camera, width, height); };
+  draw({{"WITHOUT_PLANE", ""}}, {{0, 0}, {width, height}});
+  draw(finish_defines({{"WITHOUT_PROBE", ""}}), around(points_of_plane(inputs, plane)));
+  draw(finish_defines({}), around(points_of_probe(inputs, plane)));
   finish_pace.end(double(width) * height, true);
+  // A software renderer would draw all of it together, and the time of the silhouette, which has as many pixels of the
+  // layers at each scale, would count as time of the plane.
+  glFlush();
+  cut_to({{0, 0}, {width, height}});
+  draw_silhouette(inputs, area, float(width) / float(layers.front.width()));
   ++renders;
+}
+
+// Returns the area that the layers may show something in.
+PictureArea VolumeView::State::draw_layers(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
+  const int width = scaled(inputs.width, scale), height = scaled(inputs.height, scale);
+  const BoxCorners corners = corners_of(inputs.patient->tissue_from_patient());
+  const PictureArea area = area_of(corners, inputs.camera, width, height);
+  layers.resize(width, height);
+  bind(inputs, plane, width, height, scale, {0, height});
+  const ScopedDrawTarget drawing(layers.framebuffer, 0, height);
+  layers_program.define(defines_for(inputs.style.ct));
+  layers_program.use();
+  pace.begin(true);
+  layers.clear();
+  cut_to(area);
+  triangle.draw();
+  pace.end(double(width) * height, true);
+  return area;
+}
+
+void VolumeView::State::draw_silhouette(const VolumeInputs& inputs, const PictureArea& area, float pixels_per_layer) {
+  silhouette.define(finish_defines(defines_for(inputs.style.ct)));
+  silhouette.use();
+  const glm::ivec2 size = area.end - area.first;
+  glUniform3i(silhouette.uniform("vertices"), area.first.x, area.first.y, size.x);
+  points.draw(size.x * size.y, pixels_per_layer);
 }
 
 VolumeView::VolumeView(const gl::ShaderSources& sources, RayShader shader)
@@ -328,7 +417,7 @@ double VolumeView::full_picture_ms() const {
 
 std::optional<std::string> VolumeView::reload(const gl::ShaderSources& sources) {
   std::vector<gl::Program*> programs = state_->classified.programs();
-  programs.insert(programs.end(), {&state_->whole, &state_->layers_program, &state_->finish});
+  programs.insert(programs.end(), {&state_->whole, &state_->layers_program, &state_->finish, &state_->silhouette});
   const std::optional<std::string> problem = gl::Program::reload(programs, sources);
   if (!problem) forget();
   return problem;

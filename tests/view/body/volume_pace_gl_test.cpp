@@ -167,6 +167,41 @@ TEST_CASE("while things move the plane and the probe are as sharp as in the full
   CHECK(off < kWidth * kHeight / 50);
 }
 
+TEST_CASE("while things move the patient's silhouette is as sharp as in the full picture") {
+  Scene scene = small_patient();
+  view::VolumeStyle style;
+  style.plane = style.probe = false;
+  style.cut = GENERATE(false, true);
+  style.skin = GENERATE(0.3, 1.0);
+  if (!style.cut && style.skin < 1 && GENERATE(false, true)) {  // the CT itself
+    style.ct.emplace();
+    style.ct->function = {"", {{-200, {0.8, 0.4, 0.3}, 0}, {0, {0.8, 0.4, 0.3}, 2}}};
+  }
+  OrbitCamera camera;
+  camera.yaw_deg = 30;
+  camera.pitch_deg = 40;
+  camera.distance_mm = 400;
+  CAPTURE(style.cut, style.skin, style.ct.has_value());
+  VolumeView moving, sharp;
+  const auto draw = [&](VolumeView& view, const view::VolumeBudget& budget) {
+    return test::read(view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style, budget));
+  };
+  draw(moving, {kHopeless_ms, kUnlimited});
+  camera.yaw_deg += 1;
+  const Image<Rgba8> coarse = draw(moving, {kHopeless_ms, kUnlimited}), full = draw(sharp, {});
+  REQUIRE(moving.scale() == 4);
+  const auto is_empty = [](const Rgba8& p) { return std::max({p[0], p[1], p[2]}) < 40; };
+  int border = 0, off = 0;  // pixels beside the silhouette, and those that it should not cover or should
+  for (int y = 1; y < kHeight - 1; ++y)
+    for (int x = 1; x < kWidth - 1; ++x) {
+      const bool empty = is_empty(full.at(x, y));
+      border += empty != is_empty(full.at(x + 1, y)) || empty != is_empty(full.at(x, y + 1));
+      off += empty != is_empty(coarse.at(x, y));
+    }
+  CHECK(border > 100);
+  CHECK(off < border / 20);
+}
+
 TEST_CASE("the volume view leaves the state of the context alone") {
   Scene scene = small_patient();
   VolumeView view;
