@@ -148,6 +148,7 @@ void Runner::show(const ProbeSample& sample, double now) {
   if (valid && meter) live_.view = meter->measure(sample.patient_from_probe, machine_.depth_mm);
   run_->see({now, valid, sample.patient_from_probe, live_.view ? &*live_.view : nullptr, machine_});
   live_.within_tolerance = run_->on_target();
+  live_.lacks = run_->lacks();
   live_.hold_share = run_->share_done();
   live_.counts_as_done = run_->counts_as_done();
 }
@@ -177,6 +178,7 @@ void Runner::begin_step(std::size_t index, double now) {
   run_ = begin_[index](now);
   live_.hold_share = 0;
   live_.within_tolerance = false;
+  live_.lacks.clear();
   live_.counts_as_done = run_->counts_as_done();
   live_.hints.clear();
   for (std::size_t i = 0; i < hints_taken_[index]; ++i) live_.hints.push_back(asked.hints[i].text);

@@ -34,6 +34,7 @@ struct LiveExam {
   bool on_skin = false;
   std::optional<ViewValues> view;  ///< of the last sample; empty if it was invalid or the step names no view
   bool within_tolerance = false;   ///< the last sample's picture meets the step's requirements
+  std::string lacks;               ///< the first requirement that it does not meet, as a sentence
   double hold_share = 0;           ///< share of the step that is done, such as the share of the hold, 0 to 1
   bool counts_as_done = false;     ///< ending the step now would count as done
   std::vector<std::string> hints;  ///< hints taken in this step

@@ -134,7 +134,8 @@ std::optional<Guiding> Guide::now(const Session& session) const {
   advise(guiding, session, *pose, {});
   if (live && !live->within_tolerance && guiding.advice.empty()) {
     advise(guiding, session, *pose, kFinely);
-    if (guiding.advice.empty()) guiding.advice = {"The probe is in place: look at depth, probe and knobs."};
+    if (guiding.advice.empty())
+      guiding.advice = {"The probe is in place. " + (live->lacks.empty() ? "Look at depth and knobs." : live->lacks)};
   }
   guiding.there = (live && live->within_tolerance) || guiding.advice.empty();
   const glm::dvec3 middle(0, view->depth_mm / 2, 0), normal = view->patient_from_probe.rotation[2];

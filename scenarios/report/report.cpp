@@ -88,7 +88,7 @@ std::string pictures_of(const StepResult& step, std::size_t index, const std::ve
   struct Place {
     ReportPicture::Kind kind;
     const char* caption;
-    const char* missing;  ///< in place of the picture
+    std::string missing;  ///< in place of the picture; empty if nothing takes its place
     const char* caption_of_missing;
   };
   std::string html;
@@ -97,13 +97,14 @@ std::string pictures_of(const StepResult& step, std::size_t index, const std::ve
   for (const Place& place :
        {Place{ReportPicture::Kind::best, held ? "While the view was held best" : "The learner's picture",
               holds ? "The view was not held" : "No picture", "The learner's picture"},
-        Place{ReportPicture::Kind::reference, "Reference view", "No picture", "Reference view"}}) {
+        Place{ReportPicture::Kind::reference, "Reference view", "", ""}}) {
     const ReportPicture* shown = nullptr;
     for (const ReportPicture& picture : pictures)
       if (picture.step == index && picture.kind == place.kind) shown = &picture;
+    if (!shown && place.missing.empty()) continue;
     html += "<figure>";
     html += shown ? "<img alt='' src='data:image/png;base64," + base64(shown->png) + "'>"
-                  : "<div class='missing'>" + std::string(place.missing) + "</div>";
+                  : "<div class='missing'>" + place.missing + "</div>";
     html += "<figcaption>" + std::string(shown ? place.caption : place.caption_of_missing) + "</figcaption></figure>";
     any = any || shown;
   }

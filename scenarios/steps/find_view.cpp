@@ -7,6 +7,7 @@
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/metrics/view_meter.h"
 #include "scenarios/steps/structures.h"
+#include "scenarios/words.h"
 #include "sim/core/suggest.h"
 #include "sim/core/text.h"
 #include "sim/files/toml_table.h"
@@ -45,6 +46,11 @@ void add(ViewValues& sum, const ViewValues& view, double weight) {
   for (const auto& [metric, value] : ViewValues::fields()) sum.*value += weight * std::abs(view.*value);
 }
 
+bool meets(const Tolerance& tolerance, const ViewValues& view) {
+  const double value = view.of(tolerance.metric);
+  return info(tolerance.metric).less_is_better ? value <= tolerance.limit : value >= tolerance.limit;
+}
+
 class FindViewRun : public StepRun {
 public:
   explicit FindViewRun(const FindView& asked) : asked_(asked) {}
@@ -73,6 +79,17 @@ public:
   bool done() const override { return held_; }
   double share_done() const override { return share_; }
   bool on_target() const override { return within_tolerance_; }
+
+  std::string lacks() const override {
+    if (within_tolerance_ || recent_.empty()) return "";
+    const ViewValues& view = recent_.back().view;
+    for (const Tolerance& t : asked_.tolerance)
+      if (!meets(t, view))
+        return std::string(info(t.metric).words) + ": " + in_words(t.metric, view.of(t.metric)) +
+               ", asked for: " + in_words(t.metric, t.limit) +
+               (info(t.metric).less_is_better ? " or less." : " or more.");
+    return "";
+  }
 
   void finish(StepOutcome outcome, double, StepResult& result) const override {
     result.longest_hold_s = longest_hold_s_;
@@ -111,10 +128,7 @@ private:
   bool bridged(double now) const { return !recent_.empty() && MotionMeter::bridges(now - recent_.back().time_s); }
 
   bool within_tolerance(const ViewValues& view) const {
-    return std::all_of(asked_.tolerance.begin(), asked_.tolerance.end(), [&](const Tolerance& t) {
-      const double value = view.of(t.metric);
-      return info(t.metric).less_is_better ? value <= t.limit : value >= t.limit;
-    });
+    return std::ranges::all_of(asked_.tolerance, [&](const Tolerance& t) { return meets(t, view); });
   }
 
   const FindView& asked_;

@@ -59,6 +59,8 @@ public:
   /// The share of the step that is done, 0 to 1, and whether the picture meets the requirements; shown on the screen.
   virtual double share_done() const { return 0; }
   virtual bool on_target() const { return false; }
+  /// Returns the first requirement that the last picture does not meet, as a sentence; empty if there is none.
+  virtual std::string lacks() const { return ""; }
 
   /// Returns the reason that a report gives for a criterion without a value.
   virtual std::string why_no_value() const { return "there was no valid pose to judge."; }

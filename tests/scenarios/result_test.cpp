@@ -212,6 +212,11 @@ TEST_CASE("the report shows the best picture of a step beside its reference view
   early.steps[1].outcome = StepOutcome::went_on;
   CHECK(report_html(early, one.trace, subject).find("held best") == std::string::npos);
   CHECK(count(html, "class='missing'") == 0);
+
+  subject.pictures = {{1, ReportPicture::Kind::best, "best1"}};  // as of a step without a reference view
+  html = report_html(one.result, one.trace, subject);
+  CHECK(count(html, "<figure>") == 1);
+  CHECK(html.find("Reference view") == std::string::npos);
 }
 
 TEST_CASE("text from a scenario stays text in the report") {

@@ -132,7 +132,10 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
                   : "Mark  (Space)",
            ButtonKind::primary, done || heard))
     wizard.mark(steady_now_s());
-  if (next("undo", 190, done ? "Again  (Backspace)" : "Take back  (Backspace)")) wizard.undo();
+  const SetupView& shown = wizard.view();
+  if (next("undo", 190, done ? "Again  (Backspace)" : "Take back  (Backspace)", ButtonKind::normal,
+           done || shown.reading || shown.share > 0))
+    wizard.undo();
   if (next("close", 130, "Close  (Esc)")) close = true;
   if (kSetupSteps[wizard.current()] == "landmarks" && wizard.can_be_moved() &&
       next("moved", 190, wizard.moved() ? "Only moved: find again" : "It was only moved",

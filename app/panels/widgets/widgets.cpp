@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-ImVec2 size_of(ImFont* font, std::string_view text, float wrap = 0) {
-  return font->CalcTextSizeA(font->FontSize, 3e38f, wrap, text.data(), text.data() + text.size());
+ImVec2 size_of(ImFont* font, std::string_view text) {
+  return font->CalcTextSizeA(font->FontSize, 3e38f, 0, text.data(), text.data() + text.size());
 }
 
 // Returns the longest beginning that fits with an ellipsis after it, cut between UTF-8 characters.
@@ -106,9 +106,9 @@ std::vector<std::string> cut_texts;
 /// Draws a text in a box above `of`, or below where there is no room.
 void draw_box(const Theme& theme, const Rect& of, std::string_view words) {
   if (words.empty() || tips_are_hidden) return;
-  const std::string text = unbroken(words);
+  const std::string text = wrapped(theme.text, words, theme.px(340));
   const ImGuiIO& io = ImGui::GetIO();
-  const ImVec2 size = size_of(theme.text, text, theme.px(340));
+  const ImVec2 size = size_of(theme.text, text);
   Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
   box.x = std::clamp(box.x, 0.0f, std::max(0.0f, io.DisplaySize.x - box.w));
   box.y = of.y - box.h - theme.px(6);
@@ -116,7 +116,7 @@ void draw_box(const Theme& theme, const Rect& of, std::string_view words) {
   ImDrawList* list = ImGui::GetForegroundDrawList();
   list->AddRectFilled(box.min(), box.max(), colour::kHovered, theme.px(4));
   list->AddText(theme.text, theme.text->FontSize, box.inset(theme.px(12), theme.px(8)).min(), colour::kText,
-                text.data(), text.data() + text.size(), size.x + 1);
+                text.data(), text.data() + text.size());
 }
 
 /// Returns for how long the pointer has not moved, by the frames that asked.

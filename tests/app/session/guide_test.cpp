@@ -304,14 +304,16 @@ TEST_CASE("in a step the guide leads on until the step's own tolerances are met"
 }
 
 TEST_CASE("where the probe is in place and the step asks for more, the guide does not say to hold still") {
-  Session session = by_hand(with_tolerance("target_in_view_percent = 150"));
+  Session session = by_hand(with_tolerance("plane_distance_mm = 8\ndepth_use_percent = 90"));
   Guide guide;
   guide.turn(true);
   session.move_probe([&](const ProbeHand&, const Pose&) { return at_z(0); });
   for (int i = 1; i < 4; ++i) session.advance(0.1 * i);
   REQUIRE(guide.now(session));
   CHECK_FALSE(guide.now(session)->there);
-  CHECK(guide.now(session)->advice.front().starts_with("The probe is in place"));
+  CHECK(guide.now(session)->advice ==
+        std::vector<std::string>{"The probe is in place. Share of the picture's depth that the target takes: 26 %, "
+                                 "asked for: 90 % or more."});
 }
 
 TEST_CASE("under strict rules there is no guide, not even after the exam") {
