@@ -1,5 +1,5 @@
-// The pixels around the patient's silhouette in the volume view while things move. The few pixels of its layers would show
-// as steps there, so that volume_view.frag casts a whole ray for each of these.
+// The pixels around the patient's silhouette in the volume view while things move. The few pixels of its layers would
+// show as steps there, so that volume_view.frag casts a whole ray for each of these.
 //
 // Reads the layers of volume_layers.frag, and gl_VertexID: a vertex is a pixel of the layers. Writes its place, or one
 // outside the picture if it and its neighbours are alike. Draw: points (Points, sim/gl/objects.h), as many pixels wide as

@@ -24,7 +24,7 @@ const float kCutWindow_hu = 400.0, kCutLevel_hu = 40.0;
 
 // Shares of the body between which the cut's face begins.
 #ifdef FEW_PIXELS
-const vec2 kCutEdge = vec2(0.7, 1.0);  // the skin, brighter than fat, is thinner than a pixel: it would be a line of dots
+const vec2 kCutEdge = vec2(0.7, 1.0);  // skin, brighter than fat, is thinner than a pixel and would be a line of dots
 #else
 const vec2 kCutEdge = vec2(0.4, 0.6);
 #endif

@@ -233,7 +233,7 @@ void cut_to(const PictureArea& area) {
 }
 
 // Returns the finest scale up to `coarsest` that fits the budget. A finer scale than the last is chosen only if it fits
-// with room to spare, so that the picture does not flicker count two sharpnesses.
+// with room to spare, so that the picture does not flicker between two sharpnesses.
 int chosen_scale(Pace& pace, double full_pixels, double budget_ms, int last, int coarsest) {
   if (std::isinf(budget_ms)) return 1;
   const std::optional<double> pixel_ms = pace.pixel_ms();
