@@ -189,7 +189,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
     volume_camera_ = camera;
     volume_pose_ = *pose;
     volume_ = &volume_view_.render(sizes.volume_width, std::max(sizes.volume_height, 1), *patient_, camera, plane_,
-                                   body, {0.5 * effort.volume_ms, 0.5 * effort.volume_ms});
+                                   body, {0.4 * effort.volume_ms, 0.6 * effort.volume_ms});
   }
   if (times_) times_->end(FramePart::volume);
 }

@@ -12,7 +12,7 @@ layout(binding = 6) uniform sampler2D back_layer;
 
 uniform ivec3 vertices;  // the first one's column and row, and their number in a row
 
-const float kSeen = 0.1;  // opacity that shows beside a pixel without any
+const float kSeen = 0.3;  // opacity that shows beside a pixel without any
 
 // Returns whether the face of the cut is there, which hides most of what lies behind it.
 bool on_cut(vec2 at) {

@@ -16,8 +16,8 @@ layout(location = 0) out vec4 colour;
 #ifdef WITHOUT_PLANE
 void main() {
   vec2 uv = gl_FragCoord.xy / picture.xy;
-  if (cut == 0) composite_layer(textureLod(front_layer, uv, 0.0));  // else it is cut away
-  composite_layer(textureLod(back_layer, uv, 0.0));
+  sum = textureLod(back_layer, uv, 0.0);
+  if (cut == 0) sum += textureLod(front_layer, uv, 0.0);  // else it is cut away
   colour = over_background(2.0 * uv - 1.0);
 }
 #else
@@ -33,12 +33,14 @@ void main() {
     float hides = textureLod(before_probe_layer, uv, 0.0).x;
     if (nearer.a > 0.0) hiding = nearer * min(hides / nearer.a, 1.0);
   }
+  float through = 1.0;  // the plane
   if (!probe || plane_first) {
-    composite_layer(front);
+    sum = front;
     composite_plane(ray);
+    if (front.a < 1.0) through = (1.0 - sum.a) / (1.0 - front.a);
   }
   for (bool todo = !probe && sum.a < kOpaque; todo; todo = false) back = textureLod(back_layer, uv, 0.0);
-  composite_layer(probe ? hiding : back);
+  sum += through * (probe ? hiding : back);
   composite_probe(ray);
   colour = over_background(at);
 }

@@ -1,8 +1,9 @@
 // The volume view while things move, first pass, in few pixels: skin, organs and bone in front of the ultrasound's plane
 // and behind it, without the plane and the probe. volume_finish.frag puts those in, in many pixels.
 //
-// Reads what view/volume_ray.glsl lists. Writes both layers as colour times opacity and opacity, and the opacity of
-// what hides the probe. Draw: full-screen pass, one ray per fragment.
+// Reads what view/volume_ray.glsl lists. Writes both layers as colour times opacity and opacity, the back one as it is
+// seen through the front one, so that their sum has no seam where no plane is between them; and the opacity of what
+// hides the probe. Draw: full-screen pass, one ray per fragment.
 layout(location = 0) out vec4 front;
 layout(location = 1) out vec4 back;
 layout(location = 2) out float before_probe;
@@ -30,6 +31,7 @@ void main() {
   Ray ray = ray_at(place_of(pixel));
   March march = march_of(ray, pixel);
   bool plane_first = ray.t_plane < ray.t_probe, hidden = false, covered = false;
+  float through = 1.0;  // the front layer
   front = vec4(0.0);
   before_probe = 0.0;
   for (int part = 0; part < 3; ++part) {  // to the plane and to the probe, whichever comes first, and to the end
@@ -39,11 +41,12 @@ void main() {
       front = sum;
       covered = fan_covers(ray);
       hidden = sum.a >= kOpaque || covered;
+      through = 1.0 - sum.a;
       sum = vec4(0.0);
     }
-    if (part == (plane_first ? 1 : 0) && ray.t_probe < kNever) before_probe = sum.a;
+    if (part == (plane_first ? 1 : 0) && ray.t_probe < kNever) before_probe = through * sum.a;
   }
-  back = covered ? vec4(0.0, 0.0, 0.0, 1.0) : sum;  // opaque, so that no silhouette shows there
+  back = covered ? vec4(0.0, 0.0, 0.0, 1.0) : through * sum;  // opaque, so that no silhouette shows there
   if (ray.t_plane >= kNever) {  // all of it is in front
     front = sum;
     back = vec4(0.0);

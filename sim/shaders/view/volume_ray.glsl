@@ -35,11 +35,6 @@ void composite(vec3 shade, float opacity) {
   sum += (1.0 - sum.a) * opacity * vec4(shade, 1.0);
 }
 
-// Composites a layer: colour times opacity, opacity.
-void composite_layer(vec4 layer) {
-  sum += (1.0 - sum.a) * layer;
-}
-
 vec3 background(vec2 at) {
   return mix(vec3(0.085, 0.095, 0.115), vec3(0.045, 0.050, 0.062), smoothstep(0.2, 1.5, length(at)));
 }

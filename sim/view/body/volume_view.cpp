@@ -203,6 +203,18 @@ struct VolumeView::State {
 
 namespace {
 
+/// Returns corners of the patient's box, or of what the cut leaves of it.
+std::vector<glm::dvec3> points_of_body(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
+  const BoxCorners box = corners_of(inputs.patient->tissue_from_patient());
+  if (!inputs.style.cut) return {box.begin(), box.end()};
+  std::vector<glm::dvec3> points = cut_through(box, plane.patient_from_probe);
+  const Pose plane_from_patient = plane.patient_from_probe.inverse();
+  const double eye = plane_from_patient.point(inputs.camera.patient_from_camera().translation).z;
+  for (const glm::dvec3& corner : box)
+    if (plane_from_patient.point(corner).z * eye < 0) points.push_back(corner);
+  return points;
+}
+
 /// Returns corners of all that composite_plane() in view/volume_ray.glsl can show: the picture, and the cut's face.
 std::vector<glm::dvec3> points_of_plane(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
   std::vector<glm::dvec3> points;
@@ -339,8 +351,7 @@ void VolumeView::State::draw_moving(const VolumeInputs& inputs, const Ultrasound
 // Returns the area that the layers may show something in.
 PictureArea VolumeView::State::draw_layers(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
   const int width = scaled(inputs.width, scale), height = scaled(inputs.height, scale);
-  const BoxCorners corners = corners_of(inputs.patient->tissue_from_patient());
-  const PictureArea area = area_of(corners, inputs.camera, width, height);
+  const PictureArea area = area_of(points_of_body(inputs, plane), inputs.camera, width, height);
   layers.resize(width, height);
   bind(inputs, plane, width, height, scale, {0, height});
   const ScopedDrawTarget drawing(layers.framebuffer, 0, height);

@@ -164,7 +164,9 @@ TEST_CASE("while things move the plane and the probe are as sharp as in the full
     CHECK(plane > 50);
     CHECK(plane_off == 0);
   }
-  CHECK(off < kWidth * kHeight / 50);
+  // Through glass the bone's edge is seen, which is some hundred pixels long; without it no seam may be where the
+  // plane, invisible beside its picture, meets the skin.
+  CHECK(off < (style.skin < 1 ? 125 : 40));
 }
 
 TEST_CASE("while things move the patient's silhouette is as sharp as in the full picture") {
