@@ -132,9 +132,9 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
                   : "Mark  (Space)",
            ButtonKind::primary, done || heard))
     wizard.mark(steady_now_s());
-  const SetupView& shown = wizard.view();
+  const SetupView shown = wizard.view();
   if (next("undo", 190, done ? "Again  (Backspace)" : "Take back  (Backspace)", ButtonKind::normal,
-           done || shown.reading || shown.share > 0))
+           done || shown.reading || shown.share > 0 || !shown.refusal.empty()))
     wizard.undo();
   if (next("close", 130, "Close  (Esc)")) close = true;
   if (kSetupSteps[wizard.current()] == "landmarks" && wizard.can_be_moved() &&
