@@ -32,8 +32,8 @@ constexpr double kFrame_s = 1.0 / 60;
 constexpr double kIdle_s = 0.05;
 /// How long any change keeps the screen at full frame rate.
 constexpr double kLively_s = 0.4;
-/// Time of the volume view, in a frame that draws it while things move.
-constexpr double kVolumeBudget_ms = 10;
+/// Time of the volume view in a frame that draws it, while the ultrasound moves and while it rests.
+constexpr double kVolumeBudget_ms = 10, kVolumeBudgetAtRest_ms = 20;
 
 /// Events from GLFW's callbacks, held for the next frame.
 struct Events {
@@ -243,7 +243,8 @@ private:
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (size.x <= 0 || size.y <= 0) return false;  // minimised
     trainer_.draw(screen_.picture_sizes(trainer_, size.x, size.y),
-                  {governor_.quality(), kVolumeBudget_ms, governor_.frames_per_turn()});
+                  {governor_.quality(), governor_.moves() ? kVolumeBudget_ms : kVolumeBudgetAtRest_ms,
+                   governor_.frames_per_turn()});
     return screen_.render(trainer_, times_ ? &*times_ : nullptr);
   }
 

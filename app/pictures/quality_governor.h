@@ -17,8 +17,10 @@ public:
   /// Decides this often during motion, so that a few decisions fit in half a second.
   static constexpr double kPeriod_s = 0.15;
   /// Time without any computation after which the picture counts as still.
-  static constexpr double kRest_s = 0.3;
+  static constexpr double kRest_s = 0.15;
 
+  /// Returns whether the ultrasound moves.
+  bool moves() const { return moves_; }
   /// Returns the share of the screen's pixels along each side for the next frame, kMin to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
   /// Returns per how many frames one of the views beside the ultrasound is drawn: 0 (all are drawn in each frame), or 1

@@ -11,9 +11,14 @@ layout(location = 0) out vec4 colour;
 
 #include "view/volume_ray.glsl"
 
-// The C++ side defines WITHOUT_PLANE where pixels show neither the plane nor the probe, and WITHOUT_PROBE where they do
-// not show the probe: a software renderer takes the time of all code for all pixels.
-#ifdef WITHOUT_PLANE
+// The C++ side defines BACKGROUND where pixels show nothing else, WITHOUT_PLANE where they show neither the plane nor the
+// probe, and WITHOUT_PROBE where they do not show the probe: a software renderer takes the time of all code for all
+// pixels.
+#ifdef BACKGROUND
+void main() {
+  colour = over_background(2.0 * gl_FragCoord.xy / picture.xy - 1.0);
+}
+#elif defined(WITHOUT_PLANE)
 void main() {
   vec2 uv = gl_FragCoord.xy / picture.xy;
   sum = textureLod(back_layer, uv, 0.0);

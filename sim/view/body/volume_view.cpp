@@ -205,7 +205,8 @@ namespace {
 
 /// Returns corners of the patient's box, or of what the cut leaves of it.
 std::vector<glm::dvec3> points_of_body(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
-  const BoxCorners box = corners_of(inputs.patient->tissue_from_patient());
+  const PatientTextures& patient = *inputs.patient;
+  const BoxCorners box = corners_of(inputs.style.ct ? patient.texture_from_patient() : patient.tissue_from_patient());
   if (!inputs.style.cut) return {box.begin(), box.end()};
   std::vector<glm::dvec3> points = cut_through(box, plane.patient_from_probe);
   const Pose plane_from_patient = plane.patient_from_probe.inverse();
@@ -236,6 +237,13 @@ std::vector<glm::dvec3> points_of_probe(const VolumeInputs& inputs, const Ultras
   for (const double x : {low.x, high.x})
     for (const double y : {low.y, high.y})
       for (const double z : {low.z, high.z}) points.push_back(plane.patient_from_probe.point({x, y, z}));
+  return points;
+}
+
+std::vector<glm::dvec3> points_of_all(const VolumeInputs& inputs, const UltrasoundPlane& plane) {
+  std::vector<glm::dvec3> points = points_of_body(inputs, plane);
+  for (const std::vector<glm::dvec3>& more : {points_of_plane(inputs, plane), points_of_probe(inputs, plane)})
+    points.insert(points.end(), more.begin(), more.end());
   return points;
 }
 
@@ -305,6 +313,13 @@ void VolumeView::State::draw_whole(const VolumeInputs& inputs, const UltrasoundP
     cast_rays(inputs, rows);
   } else {
     const ScopedDrawTarget drawing(full.framebuffer, rows.first, rows.end);
+    finish.define({{"BACKGROUND", ""}});
+    finish.use();
+    triangle.draw();
+    PictureArea area = area_of(points_of_all(inputs, plane), inputs.camera, inputs.width, inputs.height);
+    area.first.y = std::clamp(area.first.y, rows.first, rows.end);
+    area.end.y = std::clamp(area.end.y, rows.first, rows.end);
+    cut_to(area);
     whole.use();
     triangle.draw();
   }
