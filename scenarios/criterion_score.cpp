@@ -14,11 +14,6 @@ std::string name_of(const StepResult& step, std::size_t index) {
   return "Step " + std::to_string(index + 1) + " (" + step.title + ")";
 }
 
-/// Returns the end of a sentence about a limit: what else counts as it does. Metrics with a limit of 0 are never below.
-std::string or_beyond(double limit, bool less) {
-  return !less ? " or more." : limit == 0 ? "." : " or less.";
-}
-
 /// Returns why a step was not done, as a sentence; empty if it was done or skipped.
 std::string why_not_done(const StepResult& step, std::size_t index) {
   const bool holds = step.holds_view;
@@ -88,9 +83,10 @@ CriterionScore score_criterion(const Criterion& criterion, std::optional<double>
   const std::string zero = in_words(criterion.metric, criterion.zero);
   const bool less = criterion.full < criterion.zero;
   if (share >= 1)
-    m.why = measured + ": full points for " + full + or_beyond(criterion.full, less);
+    m.why = measured + ": full points for " + full + (less ? " or less." : " or more.");
   else if (share <= 0)
-    m.why = measured + ": nothing for " + zero + or_beyond(criterion.zero, !less);
+    m.why =
+        measured + (measured == zero ? ": no points." : ": nothing for " + zero + (less ? " or more." : " or less."));
   else
     m.why = measured + ": between full points at " + full + " and none at " + zero + ".";
   return m;

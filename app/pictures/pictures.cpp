@@ -253,17 +253,22 @@ void Pictures::look_from_next() {
 }
 
 std::optional<Image<Rgba8>> Pictures::reference_picture(const ReferenceView& view) {
-  const Probe* probe = find_probe(view.probe);
-  if (!ultrasound_ || !probe) return std::nullopt;
+  if (!find_probe(view.probe)) return std::nullopt;
   Machine untouched;
   untouched.choose(view.probe);
   untouched.depth_mm = std::clamp(view.depth_mm, Machine::kMinDepth_mm, Machine::kMaxDepth_mm);
-  Settings settings = settings_of(untouched);
+  return still(view.patient_from_probe, untouched);
+}
+
+std::optional<Image<Rgba8>> Pictures::still(const Pose& patient_from_probe, const Machine& machine) {
+  const Probe* probe = find_probe(machine.probe);
+  if (!ultrasound_ || !probe) return std::nullopt;
+  Settings settings = settings_of(machine);
   settings.image_width = shown_.image_width;
   settings.image_height = shown_.image_height;
-  simulator_.set_probe(*probe, untouched.depth_mm);
+  simulator_.set_probe(*probe, machine.depth_mm);
   simulator_.set_settings(at_quality(settings, level_));
-  simulator_.set_pose(view.patient_from_probe);
+  simulator_.set_pose(patient_from_probe);
   probe_name_.clear();  // forces the next update() to set the session's probe again
   return read_back(simulator_.image());
 }

@@ -83,6 +83,8 @@ public:
   /// picture. Row 0 is the top; the marker's side is on the right. To be called between two frames: ultrasound() is
   /// correct again after the next update(). Empty before update() has drawn a pose, and for an unknown probe.
   std::optional<Image<Rgba8>> reference_picture(const ReferenceView& view);
+  /// Returns the ultrasound of a pose with a machine's settings, as reference_picture() does.
+  std::optional<Image<Rgba8>> still(const Pose& patient_from_probe, const Machine& machine);
   /// Draws the body alone, without probe and ultrasound plane, from any side, and returns it; null without a patient.
   /// Replaces volume().
   const gl::Texture* draw_body(const view::OrbitCamera& from, int width, int height, double budget_ms);

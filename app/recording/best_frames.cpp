@@ -56,6 +56,15 @@ const std::vector<BestFrames::Kept>* BestFrames::kept_of(const Session& session)
   return session.attempt() != attempt_ || of_step == frames_.end() ? nullptr : &of_step->second;
 }
 
+void BestFrames::see(const Session& session) {
+  forget_older(session);
+  if (!session.runner()) return;
+  const LiveExam& live = session.runner()->live();
+  const StepTask* task = session.runner()->scenario().steps[live.step].task.get();
+  if (!live.finished && live.view && task && task->holds_view() && session.shown_pose())
+    last_seen_.insert_or_assign(live.step, Seen{*session.shown_pose(), session.machine()});
+}
+
 bool BestFrames::due(const Session& session, const PictureTools& tools) const {
   if (!session.runner()) return false;
   constexpr double kStep = 0.1;  // of the hold
@@ -110,6 +119,10 @@ std::vector<ReportPicture> BestFrames::report_pictures(const Session& session, P
   std::vector<ReportPicture> shown;
   for (const auto& [step, kept] : frames_)
     shown.push_back(report_picture(step, ReportPicture::Kind::best, stacked(kept)));
+  for (const auto& [step, seen] : last_seen_)
+    if (!frames_.contains(step))
+      if (const auto picture = pictures.still(seen.pose, seen.machine))
+        shown.push_back(report_picture(step, ReportPicture::Kind::best, mirrored(*picture)));
   const std::vector<StepResult>& steps = session.result()->steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const ReferenceView* view = session.loaded_case().subject.find_view(steps[i].view);

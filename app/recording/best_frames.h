@@ -12,10 +12,13 @@
 
 namespace insonate {
 
-/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a step
-/// that measures, points or names it keeps every frozen picture in which something is placed, with that.
+/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a view
+/// that was never held it keeps the last pose. Of a step that measures, points or names it keeps every frozen picture
+/// in which something is placed, with that.
 class BestFrames {
 public:
+  /// Takes the session's state, before each of its advances.
+  void see(const Session& session);
   /// Whether the view is held for longer than in the frame that is kept, by a tenth of what the step asks for, or
   /// something else is placed in a frozen picture, this one or an earlier one of the step: draw, then keep().
   /// @param tools  must have seen the session's current state
@@ -27,7 +30,8 @@ public:
 
   /// Returns the last step's newest; nullptr when no view was held.
   const Image<Rgba8>* last() const { return frames_.empty() ? nullptr : &frames_.rbegin()->second.back().frame; }
-  /// Returns for the report each step's frames, one below the other, and what the step's view should look like.
+  /// Returns for the report each step's frames, one below the other, and what the step's view should look like. The
+  /// last picture of a view that was never held is drawn now.
   std::vector<ReportPicture> report_pictures(const Session& session, Pictures& pictures) const;
 
 private:
@@ -42,7 +46,13 @@ private:
   static Image<Rgba8> stacked(const std::vector<Kept>& kept);
   const std::vector<Kept>* kept_of(const Session& session) const;
 
+  struct Seen {
+    Pose pose;
+    Machine machine;
+  };
+
   std::map<std::size_t, std::vector<Kept>> frames_;  ///< by step, never empty
+  std::map<std::size_t, Seen> last_seen_;            ///< by step, of those that ask to hold a view
   int attempt_ = 0;                                  ///< whose frames these are; 0 for none
   std::size_t step_ = 0;                             ///< of the newest
   double share_ = 0;                                 ///< of the hold, when it was kept

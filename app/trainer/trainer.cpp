@@ -312,6 +312,7 @@ void Trainer::update(Mode& mode, double now_s) {
   const std::optional<std::size_t> step =
       session.runner() ? std::optional(session.runner()->live().step) : std::nullopt;
   guide_.report_use(session);
+  mode.best_frames.see(session);
   session.advance(now_s - mode.behind_s);
   if (step && session.runner() && !session.result() && session.runner()->live().step != *step)
     if (std::string said = how_step_ended(*session.runner(), *step); !said.empty())

@@ -71,7 +71,7 @@ TEST_CASE("a mark says why") {
   CHECK(score_criterion(more, 12).why == "12 %: nothing for 30 % or less.");
   Criterion from_none = more;
   from_none.zero = 0;
-  CHECK(score_criterion(from_none, 0).why == "0 %: nothing for 0 %.");
+  CHECK(score_criterion(from_none, 0).why == "0 %: no points.");
   CHECK(score_criterion(more, std::nullopt, "nothing was seen.").why == "nothing was seen.");
   CHECK(score_criterion(more, std::nullopt, "nothing was seen.").points == 0);
   CHECK(score_criterion(criterion(Metric::tilt_deg, 5, 20, 1), 3).why ==

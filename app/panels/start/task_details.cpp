@@ -300,6 +300,7 @@ StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page, st
                  {"E, Q", "rotate it"},
                  {"A, D", "tilt the beam"},
                  {"W, S", "rock the beam"},
+                 {"Shift", "with any of these: slowly"},
                  {"Space", "freeze the picture, and let it run again"},
                  {"F1", "all keys, at any time"}});
       break;

@@ -19,7 +19,8 @@
 namespace insonate::view {
 namespace {
 
-constexpr int kCoarsest = 4;
+// Of the layers, and of the plane and the silhouette, which are edges.
+constexpr int kCoarsest = 4, kCoarsestPlane = 2;
 
 // One sample every half voxel, fewer where pixels are coarser. Smoothing spreads an edge over two voxels, so that four
 // samples lie in it and no steps show.
@@ -409,7 +410,8 @@ const gl::Texture& VolumeView::render(int width, int height, const PatientTextur
     if (s.scale == 1) {
       s.draw_whole(inputs, plane, {0, height});
     } else {
-      s.finish_scale = chosen_scale(s.finish_pace, pixels, budget.plane_ms, s.finish_scale, s.scale);
+      s.finish_scale =
+          chosen_scale(s.finish_pace, pixels, budget.plane_ms, s.finish_scale, std::min(s.scale, kCoarsestPlane));
       s.draw_moving(inputs, plane);
     }
   } else if (s.full_rows < height) {

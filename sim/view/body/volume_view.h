@@ -47,10 +47,11 @@ public:
   /// Returns the picture: RGBA8, alpha 255, row 0 is the top; valid until the next call. The texture is `width` by
   /// `height`. While the inputs change and a full picture would exceed the budget, skin, organs and bone are drawn with
   /// a half, third or quarter of the pixels along each side. The plane, the face of the cut, the probe and the
-  /// patient's silhouette stay sharp as far as the plane's budget allows: the texture is as large as that, and to be
-  /// drawn stretched. The silhouette's time is in neither budget: it follows from its length alone. Once nothing
-  /// changes, each call draws as much of the full picture as the budget allows, and returns it when it is complete.
-  /// After that nothing is drawn. Leaves the framebuffer binding and viewport as they were.
+  /// patient's silhouette are sharp as far as the plane's budget allows, with a half of the pixels at least: the
+  /// texture is as large as that, and to be drawn stretched. The silhouette's time is in neither budget: it follows
+  /// from its length alone. Once nothing changes, each call draws as much of the full picture as the budget allows, and
+  /// returns it when it is complete. After that nothing is drawn. Leaves the framebuffer binding and viewport as they
+  /// were.
   /// @param patient  compared by address: call forget() after changing the object there
   const gl::Texture& render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
                             const UltrasoundPlane& plane, const VolumeStyle& style = VolumeStyle(),
