@@ -12,8 +12,8 @@ layout(location = 0) out vec4 colour;
 #include "view/volume_ray.glsl"
 
 // The C++ side defines BACKGROUND where pixels show nothing else, WITHOUT_PLANE where they show neither the plane nor the
-// probe, and WITHOUT_PROBE where they do not show the probe: a software renderer takes the time of all code for all
-// pixels.
+// probe, and WITHOUT_PROBE where they do not show the probe: in a software renderer, code that no pixel needs costs
+// nothing only if it is not there.
 #ifdef BACKGROUND
 void main() {
   colour = over_background(2.0 * gl_FragCoord.xy / picture.xy - 1.0);

@@ -78,8 +78,8 @@ float fan_at(vec2 uv) {
 }
 
 // Composites the picture's plane at a point: ultrasound inside the fan, the fan's edge, and the CT on the cut around
-// it. Loops stand where one would write `if`: a software renderer runs both sides of an `if` for all pixels, but skips a
-// loop that none of its pixels enters.
+// it. Loops stand where one would write `if`: a software renderer runs both sides of an `if` for all pixels, and takes
+// less time, though some, for a loop that none of its pixels enters.
 void composite_plane(vec3 patient, float t, float slant) {
   vec2 image_mm = image_geometry.z * vec2(textureSize(ultrasound_image, 0));
   vec2 uv = ((probe_from_patient * vec4(patient, 1.0)).xy - image_geometry.xy) / image_mm;
