@@ -24,12 +24,19 @@ void FanLayout::lay_out(const Probe& probe, double depth_mm, const ScanLines& li
   inside.height = height;
   inside.pixels.resize(std::size_t(width) * std::size_t(height));
   line_and_sample.resize(inside.pixels.size());
+  const double dr_mm = lines.dr_mm();
   tbb::parallel_for(0, height, [&](int y) {
-    std::size_t pixel = std::size_t(y) * std::size_t(width);
-    for (int x = 0; x < width; ++x, ++pixel) {
+    std::uint8_t* is_inside = &inside.at(0, y);
+    glm::vec2* place = line_and_sample.data() + (is_inside - inside.pixels.data());
+    // A picture's right half is the mirror image of its left one.
+    for (int x = 0, mirrored = width - 1; x <= mirrored; ++x, --mirrored) {
       const auto at = line_position(probe, depth_mm, geometry.plane_mm(x, y));
-      inside.pixels[pixel] = at ? 1 : 0;
-      line_and_sample[pixel] = at ? glm::vec2(at->line, at->r_mm / lines.dr_mm() - 0.5) : glm::vec2(-2);
+      is_inside[x] = is_inside[mirrored] = at ? 1 : 0;
+      place[x] = place[mirrored] = glm::vec2(-2);
+      if (!at) continue;
+      const double sample = at->r_mm / dr_mm - 0.5;
+      place[mirrored] = glm::vec2(probe.lines - 1 - at->line, sample);
+      place[x] = glm::vec2(at->line, sample);
     }
   });
 

@@ -34,12 +34,25 @@ class InsideWindow {
 public:
   InsideWindow(const Image<std::uint8_t>& inside, const Gaussian& gaussian)
       : margin_(gaussian.radius), along_rows_(inside.width, inside.height) {
-    for (int j = -margin_; j <= margin_; ++j) weights_.push_back(float(std::exp(gaussian.exponent * j * j)));
+    std::vector<double> up_to{0};  // the sum of the weights before the i-th of the window
+    for (int j = -margin_; j <= margin_; ++j) {
+      weights_.push_back(float(std::exp(gaussian.exponent * j * j)));
+      up_to.push_back(up_to.back() + double(weights_.back()));
+    }
+    const int width = inside.width, window = 2 * margin_ + 1;
     tbb::parallel_for(0, inside.height, [&](int y) {
-      for (int x = 0; x < inside.width; ++x)
-        if (inside.at(x, y))
-          for (int i = std::max(x - margin_, 0); i <= std::min(x + margin_, inside.width - 1); ++i)
-            if (inside.at(i, y)) along_rows_.at(x, y) += weight(i - x);
+      const std::uint8_t* row = &inside.at(0, y);
+      float* parts = &along_rows_.at(0, y);
+      // The fan crosses a row in one stretch, or in two beside its face.
+      for (const std::uint8_t *end = row, *const last = row + width; end != last;) {
+        const std::uint8_t* begin = std::find(end, last, 1);
+        end = std::find(begin, last, 0);
+        const int from = int(begin - row), to = int(end - row);
+        for (int x = std::max(from - margin_, 0); x < std::min(to + margin_, width); ++x)
+          if (row[x])
+            parts[x] += float(up_to[std::size_t(std::clamp(to - x + margin_, 0, window))] -
+                              up_to[std::size_t(std::clamp(from - x + margin_, 0, window))]);
+      }
     });
   }
 
@@ -246,7 +259,8 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   return p;
 }
 
-TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
+void weigh_pixels(TexelBuffer& weights, const FanLayout& fan, const Gaussian& reflection,
+                  const Gaussian& transmission) {
   const InsideWindow of_reflection(fan.inside, reflection);
   std::optional<InsideWindow> of_transmission;
   if (transmission.radius > 0) of_transmission.emplace(fan.inside, transmission);
@@ -265,7 +279,7 @@ TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, 
       of_pixel[3] = 0;
     }
   });
-  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.get());
+  weights.assign(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.get());
 }
 
 TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {

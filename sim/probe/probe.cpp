@@ -127,9 +127,10 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
     const bool phased = probe.kind == ProbeKind::phased;
     if (phased && xy_mm.y < 0) return std::nullopt;
     const double below_apex = xy_mm.y + apex_behind_mm(probe);
-    const double from_apex = std::hypot(xy_mm.x, below_apex);
-    across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
+    const double from_apex = glm::length(glm::dvec2(xy_mm.x, below_apex));
     r = phased ? from_apex * xy_mm.y / below_apex : from_apex - probe.radius_mm;
+    if (r < 0 || r > depth_mm) return std::nullopt;  // before the angle, which takes the longest
+    across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
   }
   if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;
   return LinePosition{across * probe.lines - 0.5, r};
