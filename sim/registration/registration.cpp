@@ -90,7 +90,7 @@ struct Run {
   const std::vector<glm::dvec3>& targets;
   const glm::dmat4 moments;  // of the targets
   SweepRegistration& result;
-  bool confirmed = false;  // two rounds have found the same place
+  bool confirmed = false;  // two rounds have found the best place
 
   EvaluateAll evaluator(Similarity& similarity, Stage stage, ImageRange used = {}) {
     return [this, &similarity, stage, used](std::span<const Parameters> points) {
@@ -298,9 +298,10 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
                     follow = run.evaluator(*wide_, kWide), fine = run.evaluator(*fine_, kFine);
   result.similarity_before = fine({&none, 1}).front();
 
-  // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds in
-  // succession have found it.
+  // A single round may miss the basin of the truth. So rounds go on until one end stands out and two rounds have found
+  // it.
   std::vector<Optimum> rough, ends;  // the best of all rounds' ends, and all of them
+  std::vector<Parameters> found;     // the best end of each round
   const bool wanders = settings.search_mm > 0 || settings.search_deg > 0;
   for (int round = 0; round < settings.rounds; ++round) {
     std::vector<Parameters> starts;
@@ -322,9 +323,12 @@ SweepRegistration SweepRegistrar::from(const glm::dmat4& start) {
     std::vector<Optimum> of_round = maximise_from(promising, fine, run.search(2, 0.5, 40));
     ends.insert(ends.end(), of_round.begin(), of_round.end());
     of_round = run.distinct(std::move(of_round), kFineStarts);
-    run.confirmed = !rough.empty() && run.apart(of_round.front().at, rough.front().at) < kBasin_mm;
+    found.push_back(of_round.front().at);
     for (Optimum& each : of_round) rough.push_back(std::move(each));
     rough = run.distinct(std::move(rough), kFineStarts);
+    run.confirmed = std::ranges::count_if(found, [&](const Parameters& each) {
+                      return run.apart(each, rough.front().at) < kBasin_mm;
+                    }) >= 2;
     if (!wanders) break;
     if (run.confirmed && run.rival_of(rough.front(), ends, fine) < kAmbiguous * rough.front().value) break;
   }

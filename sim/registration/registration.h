@@ -37,7 +37,7 @@ struct RegistrationSettings {
   double search_deg = 25;  ///< likewise, 0 to 90
   int scattered = 2000;    ///< places at which a round begins, 1 to 100000
   int followed = 16;       ///< the best of them, from which local searches start, 1 to 64
-  int rounds = 5;          ///< most repetitions of that with other places, 2 to 100; see SweepRegistrar
+  int rounds = 8;          ///< most repetitions of that with other places, 2 to 100; see SweepRegistrar
   int wide_slices = 12;    ///< images of the widest stage, 1 to 1000; four of them sort the places out
   int slices = 20;         ///< images of the finer stages, 1 to 1000
 
@@ -87,7 +87,7 @@ struct SweepRegistration {
 /// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
 /// scattered over the search range, with small images in a CT of large voxels, and follows the best by local searches.
 /// The finer stages go on from the best ends with the images as they are. That is repeated with other places until two
-/// rounds in succession agree on the best end, and no other end is nearly as similar. At last the halves of the images
+/// rounds have found the best end, and no other end is nearly as similar. At last the halves of the images
 /// look around that end in turn for a higher one: one basin may hold several. With a search range of 0, local searches
 /// from the start alone go through the same stages; they never end at a lower similarity than the start's.
 ///
