@@ -2,9 +2,7 @@
 
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
-#include <tbb/parallel_for.h>
 
-#include <array>
 #include <fstream>
 #include <limits>
 #include <vector>
@@ -43,16 +41,8 @@ DeformationGrids deformation_grids(const FreeFormField& field, const glm::dmat4&
   return {grid_over(low, high, voxel_mm), grid_over(least, most, voxel_mm)};
 }
 
-void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid,
-                         const std::function<glm::dvec3(const glm::dvec3&)>& map) {
-  std::vector<std::array<float, 3>> values(grid.count());
-  tbb::parallel_for(0, grid.size.z, [&](int k) {
-    for (int j = 0; j < grid.size.y; ++j)
-      for (int i = 0; i < grid.size.x; ++i) {
-        const glm::dvec3 p = grid.patient_from_index({i, j, k}), moved = map(p) - p;
-        values[grid.offset({i, j, k})] = {float(moved.x), float(moved.y), float(moved.z)};
-      }
-  });
+void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid, const ItkTransform& displacements) {
+  const std::vector<float> values(displacements.parameters.begin(), displacements.parameters.end());
   const auto vector = [](const glm::dvec3& v) {
     return "(" + exact_text(v.x) + "," + exact_text(v.y) + "," + exact_text(v.z) + ")";
   };

@@ -156,9 +156,9 @@ int main(int argc, char** argv) {
       ->required();
   arguments
       .add_option("FOLDER", out,
-                  "Write to this new folder: registration.json, ct_from_sweep.tfm and sweep_from_ct.tfm (ITK), "
-                  "ct_from_sweep.nrrd and sweep_from_ct.nrrd if it is deformed, evaluations.csv, index.html, and "
-                  "scene.mrml for 3D Slicer with ct.nrrd and sweep.nrrd")
+                  "Write to this new folder: registration.json, ct_from_sweep and sweep_from_ct for ITK (.tfm and .h5, "
+                  "and .nrrd if it is deformed), evaluations.csv, index.html, and scene.mrml for 3D Slicer with "
+                  "ct.nrrd and sweep.nrrd")
       ->type_name("FOLDER")
       ->required();
 

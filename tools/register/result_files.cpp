@@ -23,6 +23,7 @@
 #include "sim/volume/ct_reader.h"
 #include "tools/cli/about.h"
 #include "tools/register/deformation_files.h"
+#include "tools/register/itk_transform.h"
 
 namespace insonate {
 namespace {
@@ -156,16 +157,6 @@ std::string verdict(const SweepRegistration& found) {
 
 std::string verdict(const RegistrationReport& report) {
   return verdict(report.found) + (report.free_form ? " " + sentence_about(*report.free_form) : std::string());
-}
-
-std::string itk_transform(const glm::dmat4& matrix, const std::string& why) {
-  std::string text =
-      "#Insight Transform File V1.0\n# " + why + "\n#Transform 0\nTransform: AffineTransform_double_3_3\n";
-  text += "Parameters:";
-  for (int r = 0; r < 3; ++r)
-    for (int column = 0; column < 3; ++column) text += " " + exact_text(matrix[column][r]);
-  for (int r = 0; r < 3; ++r) text += " " + exact_text(matrix[3][r]);
-  return text + "\nFixedParameters: 0 0 0\n";
 }
 
 // Returns nothing for a folder, and for a file that cannot be read any more: the result is written without its digest.
@@ -326,24 +317,30 @@ void write_registration(const std::filesystem::path& out, RegistrationReport rep
   const TrackedSweep& sweep = report.input.sweep;
   const FreeFormField* deformation = report.deformation();
   const std::string sentence = verdict(report),
-                    of_matrix = deformation ? "The affine part alone; the .nrrd files hold the whole map. " + sentence
-                                            : sentence;
+                    of_matrix = deformation
+                                    ? "The affine part alone; the .h5 and .nrrd files hold the whole map. " + sentence
+                                    : sentence;
   write_folder(out, [&](const std::filesystem::path& folder) {
     report.pictures = write_comparison(folder / "pictures", sweep, ct, found.motion.ct_from_sweep, found.ct_from_sweep,
                                        deformation, kShownImages);
     write_file(folder / "registration.json", registration_json(report));
     const glm::dmat4 sweep_from_ct = glm::inverse(found.ct_from_sweep);
-    write_file(folder / "ct_from_sweep.tfm", itk_transform(found.ct_from_sweep, of_matrix));
-    write_file(folder / "sweep_from_ct.tfm", itk_transform(sweep_from_ct, of_matrix));
+    ItkTransform forth = itk_affine(found.ct_from_sweep), back = itk_affine(sweep_from_ct);
+    write_file(folder / "ct_from_sweep.tfm", as_tfm(forth, of_matrix));
+    write_file(folder / "sweep_from_ct.tfm", as_tfm(back, of_matrix));
     if (deformation) {
       const DeformationGrids grids = deformation_grids(*deformation, found.ct_from_sweep);
-      write_displacements(folder / "ct_from_sweep.nrrd", grids.of_sweep, [&](const glm::dvec3& p) {
+      forth = itk_displacements(grids.of_sweep, [&](const glm::dvec3& p) {
         return glm::dvec3(found.ct_from_sweep * glm::dvec4(deformation->at(p), 1));
       });
-      write_displacements(folder / "sweep_from_ct.nrrd", grids.of_ct, [&](const glm::dvec3& p) {
+      back = itk_displacements(grids.of_ct, [&](const glm::dvec3& p) {
         return deformation->inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
       });
+      write_displacements(folder / "ct_from_sweep.nrrd", grids.of_sweep, forth);
+      write_displacements(folder / "sweep_from_ct.nrrd", grids.of_ct, back);
     }
+    write_file(folder / "ct_from_sweep.h5", as_hdf5(forth, sentence));
+    write_file(folder / "sweep_from_ct.h5", as_hdf5(back, sentence));
     write_file(folder / "evaluations.csv", evaluations_csv(report));
     write_file(folder / "index.html", registration_page(report));
     write_file(folder / "scene.mrml", slicer_scene(sentence, deformation != nullptr));

@@ -35,9 +35,6 @@ struct RegistrationReport {
 /// Returns the verdict in one sentence: "Converged: ..." or "Not converged: ...".
 std::string verdict(const SweepRegistration& found);
 
-/// Returns a transform as ITK reads it (.tfm): an affine transform of LPS points, mm, with the verdict as a comment.
-std::string itk_transform(const glm::dmat4& matrix, const std::string& verdict);
-
 /// Returns the verdict, and how the deformation ended if one was asked for.
 std::string verdict(const RegistrationReport& report);
 
@@ -60,7 +57,8 @@ std::string slicer_scene(const std::string& verdict, bool is_deformed);
 
 /// Writes everything about a registration into a new folder, whole or not at all: registration.json, the transforms,
 /// evaluations.csv, index.html with its pictures, and the scene with its volumes. With a deformation, also
-/// ct_from_sweep.nrrd and sweep_from_ct.nrrd; the .tfm files then hold the affine part. Throws InputError if it cannot
+/// ct_from_sweep.nrrd and sweep_from_ct.nrrd, which hold the whole maps, as the .h5 files do; the .tfm files then hold
+/// the affine part. Throws InputError if it cannot
 /// be written or exists.
 void write_registration(const std::filesystem::path& folder, RegistrationReport report, const Volume<std::int16_t>& ct);
 

@@ -130,7 +130,8 @@ TEST_CASE("a recording is registered, and everything about it lies in a new fold
     CHECK(json["ct_from_sweep"][row][row].get<double>() > 0.995);
     CHECK(json["parameters"][row == 0 ? "tx" : row == 1 ? "ty" : "tz"]["standard_deviation_mm"] > 0);
   }
-  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
+  for (const char* file :
+       {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "ct_from_sweep.h5", "sweep_from_ct.h5", "scene.mrml", "index.html"})
     CHECK(read_file(out / file).find("Converged") != std::string::npos);
   const std::string csv = read_file(out / "evaluations.csv");
   CHECK(csv.find("evaluation,stage,similarity,tx_mm,ty_mm,tz_mm,rx_mm,ry_mm,rz_mm\n0,") == 0);
@@ -282,8 +283,9 @@ TEST_CASE("a recording of a body that has breathed is registered with a deformat
   for (const char* file : {"ct_from_sweep.nrrd", "sweep_from_ct.nrrd"})
     CHECK(read_file(out / file).find("kinds: vector domain domain domain\n") != std::string::npos);
   for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm"})
-    CHECK(read_file(out / file).find("# The affine part alone; the .nrrd files hold the whole map. Converged") !=
-          std::string::npos);
+    CHECK(
+        read_file(out / file).find("# The affine part alone; the .h5 and .nrrd files hold the whole map. Converged") !=
+        std::string::npos);
   CHECK(read_file(out / "scene.mrml").find("fileName=\"sweep_from_ct.nrrd\"") != std::string::npos);
   const std::string csv = read_file(out / "evaluations.csv"), page = read_file(out / "index.html");
   CHECK(csv.find(",shear_xy_mm,bending_energy_mm-2\n0,") != std::string::npos);
@@ -314,7 +316,8 @@ TEST_CASE("a registration that does not converge exits with 3 and says so in eve
   CHECK(outcome.output.find("\nNot converged: ") != std::string::npos);
   const fs::path out = place.in("out");
   CHECK(nlohmann::json::parse(read_file(out / "registration.json"))["converged"] == false);
-  for (const char* file : {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "scene.mrml", "index.html"})
+  for (const char* file :
+       {"ct_from_sweep.tfm", "sweep_from_ct.tfm", "ct_from_sweep.h5", "sweep_from_ct.h5", "scene.mrml", "index.html"})
     CHECK(read_file(out / file).find("Not converged: ") != std::string::npos);
 }
 

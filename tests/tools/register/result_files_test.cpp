@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <hdf5.h>
 
 #include <cmath>
 #include <cstring>
@@ -20,6 +21,7 @@
 #include "tests/core/run_program.h"
 #include "tools/register/comparison_pictures.h"
 #include "tools/register/deformation_files.h"
+#include "tools/register/itk_transform.h"
 #include "tools/register/start_transform.h"
 
 using namespace insonate;
@@ -29,7 +31,7 @@ TEST_CASE("a transform is written as ITK reads it, and never without its verdict
   matrix[3] = glm::dvec4(1.5, -2.25, 3, 1);
   SweepRegistration found;
   found.doubts.emplace_back("another place is nearly as similar");
-  const std::string text = itk_transform(matrix, verdict(found));
+  const std::string text = as_tfm(itk_affine(matrix), verdict(found));
   CHECK(text.find("#Insight Transform File V1.0\n") == 0);
   CHECK(text.find("# Not converged: another place is nearly as similar. Do not use this transform. A nearer "
                   "start may help, or a longer sweep.\n") != std::string::npos);
@@ -43,6 +45,65 @@ TEST_CASE("a transform is written as ITK reads it, and never without its verdict
     CHECK(n[9 + row] == matrix[3][row]);
   }
   CHECK(text.find("\nFixedParameters: 0 0 0\n") != std::string::npos);
+}
+
+namespace {
+
+// Reads a transform as ITK's HDF5TransformIO does, which takes one spelling of the parameters' names or the other.
+ItkTransform read_as_itk(const std::filesystem::path& path, const std::string& transform) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  const auto values = [&](const std::string& name) {
+    const hid_t data = H5Dopen2(file, ("/TransformGroup/0/" + transform + name).c_str(), H5P_DEFAULT);
+    REQUIRE(data >= 0);
+    hsize_t size = 0;
+    const hid_t space = H5Dget_space(data);
+    REQUIRE(H5Sget_simple_extent_dims(space, &size, nullptr) == 1);
+    std::vector<double> read(size);
+    CHECK(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()) >= 0);
+    H5Sclose(space);
+    H5Dclose(data);
+    return read;
+  };
+  const hid_t text = H5Tcopy(H5T_C_S1), type = H5Dopen2(file, "/TransformGroup/0/TransformType", H5P_DEFAULT);
+  H5Tset_size(text, H5T_VARIABLE);
+  char* name = nullptr;
+  REQUIRE(H5Dread(type, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, &name) >= 0);
+  ItkTransform read{name, values("FixedParameters"), values("Parameters")};
+  H5free_memory(name);
+  H5Dclose(type);
+  H5Tclose(text);
+  H5Fclose(file);
+  return read;
+}
+
+}  // namespace
+
+TEST_CASE("a transform is the same in HDF5, under both spellings of ITK's names") {
+  const TemporaryFolder folder;
+  Grid grid{{3, 4, 5}, {2, 2.5, 3}, {-10, 20, 30}, glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1, 0, 0)))};
+  const glm::dmat4 map = glm::translate(glm::rotate(glm::dmat4(1.0), 0.1, glm::dvec3(0, 1, 0)), glm::dvec3(4, -5, 6));
+  const auto moved = [&](const glm::dvec3& p) { return glm::dvec3(map * glm::dvec4(p, 1)); };
+  const ItkTransform field = itk_displacements(grid, moved);
+  CHECK(field.type == "DisplacementFieldTransform_double_3_3");
+  CHECK(std::vector(field.fixed_parameters.begin(), field.fixed_parameters.begin() + 9) ==
+        std::vector<double>{3, 4, 5, -10, 20, 30, 2, 2.5, 3});
+  CHECK(field.fixed_parameters[9 + 5] == grid.direction[2][1]);  // second row, third column
+  const glm::dvec3 p = grid.patient_from_index({2, 1, 3}), by = moved(p) - p;
+  for (int axis = 0; axis < 3; ++axis)
+    CHECK(field.parameters[3 * (2 + 3 * (1 + 4 * 3)) + std::size_t(axis)] == Approx(by[axis]));
+  for (const ItkTransform& transform : {itk_affine(map), field}) {
+    const std::string bytes = as_hdf5(transform, "Converged");
+    CHECK(bytes == as_hdf5(transform, "Converged"));
+    CHECK(bytes.find("Converged") != std::string::npos);
+    folder.put("transform.h5", bytes);
+    for (const char* spelling : {"Tranform", "Transform"}) {
+      const ItkTransform read = read_as_itk(folder.path / "transform.h5", spelling);
+      CHECK(read.type == transform.type);
+      CHECK(read.fixed_parameters == transform.fixed_parameters);
+      CHECK(read.parameters == transform.parameters);
+    }
+  }
 }
 
 TEST_CASE("the scene places the sweep behind its transform") {
@@ -74,10 +135,12 @@ TEST_CASE("displacements of both directions undo each other, also beyond the fie
   const glm::dmat4 sweep_from_ct = glm::inverse(ct_from_sweep);
   const DeformationGrids grids = deformation_grids(field, ct_from_sweep);
   CHECK(grids.of_sweep.spacing == glm::dvec3(2.5));
-  write_displacements(folder.path / "there.nrrd", grids.of_sweep,
-                      [&](const glm::dvec3& p) { return glm::dvec3(ct_from_sweep * glm::dvec4(field.at(p), 1)); });
-  write_displacements(folder.path / "back.nrrd", grids.of_ct,
-                      [&](const glm::dvec3& p) { return field.inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1))); });
+  write_displacements(folder.path / "there.nrrd", grids.of_sweep, itk_displacements(grids.of_sweep, [&](const auto& p) {
+                        return glm::dvec3(ct_from_sweep * glm::dvec4(field.at(p), 1));
+                      }));
+  write_displacements(folder.path / "back.nrrd", grids.of_ct, itk_displacements(grids.of_ct, [&](const auto& p) {
+                        return field.inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
+                      }));
   // Reads a field as NRRD defines it, by its header alone.
   struct Read {
     std::string header;
