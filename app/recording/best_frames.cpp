@@ -116,15 +116,18 @@ void BestFrames::forget_older(const Session& session) {
 }
 
 std::vector<ReportPicture> BestFrames::report_pictures(const Session& session, Pictures& pictures) const {
-  std::vector<ReportPicture> shown;
-  for (const auto& [step, kept] : frames_)
-    shown.push_back(report_picture(step, ReportPicture::Kind::best, stacked(kept)));
-  for (const auto& [step, seen] : last_seen_)
-    if (!frames_.contains(step))
-      if (const auto picture = pictures.still(seen.pose, seen.machine))
-        shown.push_back(report_picture(step, ReportPicture::Kind::best, mirrored(*picture)));
   const std::vector<StepResult>& steps = session.result()->steps;
+  std::vector<ReportPicture> shown;
   for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto kept = frames_.find(i);
+    const auto seen = last_seen_.find(i);
+    // The values of a view that was not held are those of its last moments.
+    const bool by_last_pose = seen != last_seen_.end() && steps[i].outcome != StepOutcome::held &&
+                              (kept == frames_.end() || kept->second.front().placed.empty());
+    if (const auto last = by_last_pose ? pictures.still(seen->second.pose, seen->second.machine) : std::nullopt)
+      shown.push_back(report_picture(i, ReportPicture::Kind::best, mirrored(*last)));
+    else if (kept != frames_.end())
+      shown.push_back(report_picture(i, ReportPicture::Kind::best, stacked(kept->second)));
     const ReferenceView* view = session.loaded_case().subject.find_view(steps[i].view);
     if (const auto picture = view ? pictures.reference_picture(*view) : std::nullopt)
       shown.push_back(report_picture(i, ReportPicture::Kind::reference, mirrored(*picture)));

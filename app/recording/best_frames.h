@@ -12,9 +12,9 @@
 
 namespace insonate {
 
-/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a view
-/// that was never held it keeps the last pose. Of a step that measures, points or names it keeps every frozen picture
-/// in which something is placed, with that.
+/// Keeps, for each step of an attempt, the ultrasound picture of the moment at which its view was held best. Of a step
+/// that asks to hold a view it also keeps the last pose, for the report of a view that was not held long enough. Of a
+/// step that measures, points or names it keeps every frozen picture in which something is placed, with that.
 class BestFrames {
 public:
   /// Takes the session's state, before each of its advances.
@@ -30,8 +30,8 @@ public:
 
   /// Returns the last step's newest; nullptr when no view was held.
   const Image<Rgba8>* last() const { return frames_.empty() ? nullptr : &frames_.rbegin()->second.back().frame; }
-  /// Returns for the report each step's frames, one below the other, and what the step's view should look like. The
-  /// last picture of a view that was never held is drawn now.
+  /// Returns for the report each step's frames, one below the other, and what the step's view should look like. Of a
+  /// view that was not held long enough the last picture is shown, to which the values belong; it is drawn now.
   std::vector<ReportPicture> report_pictures(const Session& session, Pictures& pictures) const;
 
 private:

@@ -202,7 +202,7 @@ zero = 60
   CHECK(last == single);
 }
 
-TEST_CASE("a second attempt's report shows its own best frame, and the last picture when the view was never held") {
+TEST_CASE("a second attempt's report shows its own best frame, and the last picture when the view was not held") {
   const test::TestContext context;
   const TrainerFolder folder;
   // One step, so that no attempt's frame gives way only because another step came.
@@ -267,6 +267,11 @@ TEST_CASE("a second attempt's report shows its own best frame, and the last pict
   };
   CHECK(learners(third).size() > 1000);
   CHECK(learners(third) != learners(second));
+
+  // A view that was held for too short a time is shown as one that never was: where the scan ended.
+  folder.file("scan.igs.mha", holding(-1, 15));
+  trainer.session()->start_over();
+  CHECK(learners(finish(trainer)) == learners(second));
 }
 
 TEST_CASE("an exam that counts is kept once for a learner, with the seed that drew it, also when it is left early") {
