@@ -22,6 +22,7 @@
 #include "devices/live/steady_clock.h"
 #include "sim/core/input_error.h"
 #include "sim/files/png.h"
+#include "sim/gl/headless_context.h"
 
 namespace insonate {
 namespace {
@@ -163,7 +164,7 @@ public:
     if (!options_.latency.empty()) trainer_.latency().write(options_.latency);
     if (times_) times_->write(options_.frame_times);
     if (!options_.screenshot.empty()) {
-      governor_ = {};  // full resolution
+      governor_ = QualityGovernor();  // full resolution
       draw();
       write_png(options_.screenshot, screen_.read());
     }
@@ -261,7 +262,7 @@ private:
   Presenter presenter_;
   Events events_;
   Cursors cursors_;
-  QualityGovernor governor_;
+  QualityGovernor governor_{gl::is_software_renderer()};
   PictureRate rate_;
   std::optional<FrameTimes> times_;
   double start_s_ = 0, last_s_ = 0, changed_s_ = 0, state_written_s_ = -1, rate_shown_s_ = -1;

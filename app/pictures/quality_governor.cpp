@@ -24,8 +24,14 @@ constexpr int kFewTurns = 2, kFewestTurns = 3;
 constexpr double kQuickForAllViews = 0.45;
 /// Most by which one decision changes the quality.
 constexpr double kMinStep = 0.7, kMaxStep = 1.15;
+/// The quality at which a software renderer's first motion begins; two cores end at 0.6 to 0.8.
+constexpr double kOfSoftwareRenderer = 0.7;
 
 }  // namespace
+
+QualityGovernor::QualityGovernor(bool for_software_renderer)
+    : of_motion_(for_software_renderer ? kOfSoftwareRenderer : 1),
+      turns_of_motion_(for_software_renderer ? kFewTurns : 0) {}
 
 void QualityGovernor::see(double now_s, double frame_s, bool computed) {
   const bool follows = std::exchange(computed_before_, computed) || now_s - computed_s_ < kRest_s;

@@ -19,6 +19,10 @@ public:
   /// Time without any computation after which the picture counts as still.
   static constexpr double kRest_s = 0.15;
 
+  /// Begins with everything in full, or for a software renderer with what its first motion would come to: on two cores
+  /// the decisions take longer than half a second, because the shaders of each quality are compiled meanwhile.
+  explicit QualityGovernor(bool for_software_renderer = false);
+
   /// Returns whether the ultrasound moves.
   bool moves() const { return moves_; }
   /// Returns the share of the screen's pixels along each side for the next frame, kMin to 1.

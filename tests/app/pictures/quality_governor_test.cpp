@@ -55,6 +55,18 @@ TEST_CASE("a machine that cannot keep up draws fewer pixels while the picture mo
   CHECK(run.governor.quality() == QualityGovernor::kMin);
 }
 
+TEST_CASE("a software renderer's first motion begins where it would come to, and a quick one draws all of it soon") {
+  Run run{QualityGovernor(true)};
+  CHECK(run.rest(1) == 0);
+  CHECK(run.governor.quality() == 1);
+  run.move(2, 0.03);
+  CHECK(run.governor.quality() < 0.8);
+  CHECK(run.governor.frames_per_turn() == 2);
+  run.move(200, 0.008);
+  CHECK(run.governor.quality() == 1);
+  CHECK(run.governor.frames_per_turn() == 0);
+}
+
 TEST_CASE("a picture that comes alone is drawn in full, however slow the machine") {
   Run run;
   run.move(1000, 0.08);
