@@ -227,13 +227,6 @@ void TexelBuffer::resize(GLenum format, std::size_t texels) {
   if (!texture_ || format != format_ || texels != texels_) *this = TexelBuffer(format, texels);
 }
 
-void TexelBuffer::assign(GLenum format, std::size_t texels, const void* values) {
-  if (texture_ && format == format_ && texels == texels_)
-    buffer_.write(values, texels * texel_bytes(format));
-  else
-    *this = TexelBuffer(format, texels, values);
-}
-
 Framebuffer::Framebuffer(const Texture& colour) : Framebuffer({&colour}) {}
 
 Framebuffer::Framebuffer(std::initializer_list<const Texture*> colours)

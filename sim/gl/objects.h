@@ -163,8 +163,6 @@ public:
   /// Becomes a buffer of so many texels, with whatever values it has. Keeps the one that it is if that has the format
   /// and the number already: a device takes longer to allocate than to clear.
   void resize(GLenum format, std::size_t texels);
-  /// The same, with these values.
-  void assign(GLenum format, std::size_t texels, const void* values);
 
 private:
   Buffer buffer_;

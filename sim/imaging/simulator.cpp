@@ -87,7 +87,6 @@ struct Simulator::State {
   Texture image;
   Buffer image_words;  // the picture as the shaders write it, one number per pixel: faster than storing to a texture
 
-  bool weights_are_old = true;
   bool layout_changed = true;  // probe, depth, sample count or picture size
   std::optional<Stage> first_outdated = Stage::traverse;
   std::array<long, kStageCount> runs{};
@@ -122,20 +121,20 @@ struct Simulator::State {
 
 // Allocates what depends on the number of lines, samples and pixels, and computes where each pixel lies.
 void Simulator::State::lay_out() {
-  const std::vector<double> angles = look_angles(probe, settings);
-  looks.resize(angles.size());
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    looks[i].lines = scan_lines(probe, depth_mm, settings.samples, angles[i]);
-    looks[i].is_old = true;
-  }
+  looks.clear();
+  next_look = 0;
+  for (const double angle : look_angles(probe, settings))
+    looks.push_back({scan_lines(probe, depth_mm, settings.samples, angle), {}});
   line_stages.lay_out(looks[looks.size() / 2].lines, 1, settings);
   const int w = settings.image_width, h = settings.image_height;
   fan.lay_out(probe, depth_mm, line_stages.lines(), w, h, division);
   noise = TexelBuffer();
-  for (Look& look : looks)
-    look.line_and_sample.assign(
-        GL_RG32F, pixels(),
-        (look.lines.fan.steering == 0 ? fan.line_and_sample : places_among(look.lines, fan.geometry)).data());
+  for (Look& look : looks) {
+    if (look.lines.fan.steering == 0)
+      look.line_and_sample = TexelBuffer(GL_RG32F, pixels(), fan.line_and_sample.data());
+    else
+      look.line_and_sample = TexelBuffer(GL_RG32F, pixels(), places_among(look.lines, fan.geometry).data());
+  }
   fan_blocks = Buffer(fan.blocks.size() * sizeof(glm::ivec2), fan.blocks.data());
   brightest = Buffer(fan.blocks.size() * sizeof(GLuint), nullptr);
   if (is_compounded())
@@ -144,7 +143,7 @@ void Simulator::State::lay_out() {
     picture.resize(GL_RG32F, pixels());
   shown = TexelBuffer();
   window_sums = TexelBuffer();
-  weights_are_old = true;
+  fan_weights = TexelBuffer();
   fused = TexelBuffer();
   if (image.width() != w || image.height() != h) {
     // Both or none, should the device refuse one.
@@ -189,11 +188,10 @@ void Simulator::State::prepare_smoothing() {
   const double per_pixel = settings.waves ? 0 : 1 / fan.geometry.mm_per_pixel;  // waves are not smoothed
   const Gaussian reflection(settings.reflection_sigma_mm * per_pixel, limit);
   const Gaussian transmission(settings.transmission_sigma_mm * per_pixel, limit);
-  if (!weights_are_old && reflection == reflection_gaussian && transmission == transmission_gaussian) return;
+  if (fan_weights && reflection == reflection_gaussian && transmission == transmission_gaussian) return;
   reflection_gaussian = reflection;
   transmission_gaussian = transmission;
-  weigh_pixels(fan_weights, fan, reflection, transmission);
-  weights_are_old = false;
+  fan_weights = weights_of_pixels(fan, reflection, transmission);
   const GLenum format = transmission.radius > 0 ? GL_RG32F : GL_R32F;
   sharp.resize(format, pixels());
   half_smoothed.resize(format, pixels());

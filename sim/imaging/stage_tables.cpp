@@ -259,8 +259,7 @@ SimulationParameters parameters_of(const Settings& settings, const ScanLines& li
   return p;
 }
 
-void weigh_pixels(TexelBuffer& weights, const FanLayout& fan, const Gaussian& reflection,
-                  const Gaussian& transmission) {
+TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission) {
   const InsideWindow of_reflection(fan.inside, reflection);
   std::optional<InsideWindow> of_transmission;
   if (transmission.radius > 0) of_transmission.emplace(fan.inside, transmission);
@@ -279,7 +278,7 @@ void weigh_pixels(TexelBuffer& weights, const FanLayout& fan, const Gaussian& re
       of_pixel[3] = 0;
     }
   });
-  weights.assign(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.get());
+  return TexelBuffer(channels == 4 ? GL_RGBA32F : GL_RG32F, fan.inside.pixels.size(), values.get());
 }
 
 TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings) {

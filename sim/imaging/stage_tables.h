@@ -68,9 +68,9 @@ double least_alpha_with_normal(const Settings& settings);
 SimulationParameters parameters_of(const Settings& settings, const ScanLines& lines, const Gaussian& reflection,
                                    const Gaussian& transmission);
 
-/// Fills `weights` with what fuse.comp reads per pixel: its sample + 1, or 0 outside the fan; then 1 / the part of its
-/// windows of R and of T that lies inside the fan. RG32F if there is no window of T, else RGBA32F.
-void weigh_pixels(TexelBuffer& weights, const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
+/// Returns what fuse.comp reads per pixel: its sample + 1, or 0 outside the fan; then 1 / the part of its windows of R
+/// and of T that lies inside the fan. RG32F if there is no window of T, else RGBA32F.
+TexelBuffer weights_of_pixels(const FanLayout& fan, const Gaussian& reflection, const Gaussian& transmission);
 
 /// Returns the receiver's noise, mean 1, one row per line.
 TexelBuffer noise_of_lines(const ScanLines& lines, const Settings& settings);

@@ -129,7 +129,7 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
     const double below_apex = xy_mm.y + apex_behind_mm(probe);
     const double from_apex = glm::length(glm::dvec2(xy_mm.x, below_apex));
     r = phased ? from_apex * xy_mm.y / below_apex : from_apex - probe.radius_mm;
-    if (r < 0 || r > depth_mm) return std::nullopt;  // before the angle, which takes the longest
+    if (r < 0 || r > depth_mm) return std::nullopt;  // most pixels beside a fan end here, before the angle
     across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
   }
   if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;

@@ -87,9 +87,9 @@ struct SweepRegistration {
 /// Registers one sweep with one CT, from any number of starts. In the widest stage it evaluates places that are
 /// scattered over the search range, with small images in a CT of large voxels, and follows the best by local searches.
 /// The finer stages go on from the best ends with the images as they are. That is repeated with other places until two
-/// rounds have found the best end, and no other end is nearly as similar. At last the halves of the images
-/// look around that end in turn for a higher one: one basin may hold several. With a search range of 0, local searches
-/// from the start alone go through the same stages; they never end at a lower similarity than the start's.
+/// rounds have found the best end, and no other end is nearly as similar. At last the halves of the images look around
+/// that end in turn for a higher one: one basin may hold several. With a search range of 0, local searches from the
+/// start alone go through the same stages; they never end at a lower similarity than the start's.
 ///
 /// LC2 needs an OpenGL context that is current at every use.
 class SweepRegistrar {

@@ -181,3 +181,35 @@ TEST_CASE("looks see speckle of their own: the mean of three varies by less than
   CHECK(three / one < 1.85);
   CHECK(close < 0.9 * three);  // looks that hardly differ see nearly the same
 }
+
+TEST_CASE("looks of a probe in motion begin anew when there are fewer of them") {
+  const test::TestContext context;
+  const AcousticVolume body = test::test_body();
+  const auto picture_after = [&](bool had_more) {
+    gl::Simulator simulator;
+    simulator.set_volume(body, test::tissues());
+    simulator.set_probe(*find_probe("curvilinear"), 100);
+    Settings settings = small_compounded();
+    Pose pose = test::on_the_skin(0, 0, 0);
+    simulator.set_pose(pose);
+    if (had_more) {
+      settings.steering_angles = 9;
+      simulator.set_settings(settings);
+      simulator.image();
+      for (int frame = 0; frame < 7; ++frame) {  // the next look is the eighth
+        pose.translation.x += 0.5;
+        simulator.set_pose(pose);
+        simulator.image_in_motion();
+      }
+      settings.steering_angles = 3;
+    }
+    simulator.set_settings(settings);
+    simulator.set_pose(test::on_the_skin(0, 0, 0));
+    simulator.image();
+    pose = test::on_the_skin(0, 0, 0);
+    pose.translation.x += 0.5;
+    simulator.set_pose(pose);
+    return grey_of(simulator.image_in_motion()).pixels;
+  };
+  CHECK(picture_after(true) == picture_after(false));
+}

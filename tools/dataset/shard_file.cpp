@@ -1,12 +1,10 @@
 #include "tools/dataset/shard_file.h"
 
 #include <fcntl.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -14,46 +12,11 @@
 
 #include "sim/core/input_error.h"
 #include "sim/files/digest.h"
+#include "tools/cli/hdf5_id.h"
 #include "tools/dataset/study.h"
 
 namespace insonate {
 namespace {
-
-/// Set once a file could not be written. From then on nothing is closed: the library would try to write again what it
-/// could not write before, and Debian's ends the process over it.
-std::atomic<bool> given_up = false;
-
-/// An identifier of the HDF5 library, which is closed at the end.
-class Id {
-public:
-  using Close = herr_t (*)(hid_t);
-  Id() = default;
-  Id(hid_t id, Close how) : id_(id), close_(how) {}
-  Id(Id&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
-  Id& operator=(Id&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(close_, other.close_);
-    return *this;
-  }
-  ~Id() { close(); }
-  bool close() {
-    const hid_t id = std::exchange(id_, H5I_INVALID_HID);
-    return id < 0 || given_up || close_(id) >= 0;
-  }
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_ = H5I_INVALID_HID;
-  Close close_ = nullptr;
-};
-
-/// Begins the use of the library on a thread. It prints each error unless that is switched off, and at the program's
-/// end it closes what is open, see given_up.
-void use_library() {
-  static const herr_t without_exit_handler = H5dont_atexit();
-  (void)without_exit_handler;
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
 
 constexpr unsigned kDeflateLevel = 1;  // of 9: each further level saves 1 % and takes a third more time
 constexpr std::size_t kDigestSize = 16;
@@ -61,23 +24,15 @@ constexpr std::size_t kDigestSize = 16;
 constexpr std::uint64_t kMaxPixels = std::uint64_t(1) << 26, kMaxBytes = std::uint64_t(1) << 30;
 constexpr std::size_t kLongestText = 1 << 20;
 
-Id text_type(std::size_t size) {
-  Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, std::max<std::size_t>(size, 1));
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
-}
-
 /// Opens a dataset, or returns an invalid one.
-Id opened(hid_t file, const char* name) {
+Hdf5Id opened(hid_t file, const char* name) {
   return {H5Dopen2(file, name, H5P_DEFAULT), H5Dclose};
 }
 
 std::string attribute_of(hid_t file, const char* name) {
-  const Id attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Id attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
   if (attribute < 0) return "";
-  const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
   const std::size_t size = H5Tget_size(type);
   // The library writes as many texts, or pointers, as a damaged file claims.
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_npoints(space) != 1 ||
@@ -98,8 +53,8 @@ constexpr const char* kOtherData[] = {
 struct ShardWriter::State {
   std::filesystem::path temporary, shown;
   ShardShape shape;
-  Id file;
-  std::array<Id, std::size(kMaps)> maps;
+  Hdf5Id file;
+  std::array<Hdf5Id, std::size(kMaps)> maps;
   // One entry per row of these; they are written at the end.
   std::vector<double> patient_from_pixel, patient_from_probe, depth_mm, mm_per_pixel;
   std::vector<float> skin_mm;
@@ -108,7 +63,7 @@ struct ShardWriter::State {
 
   [[noreturn]] void refuse() const {
     const std::string why = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
-    given_up = true;
+    hdf5_given_up = true;
     throw InputError(shown.string(), "", "it cannot be written" + why, "check the folder's permissions and free space");
   }
   void need(bool done) const {
@@ -116,24 +71,23 @@ struct ShardWriter::State {
   }
 
   /// Makes a dataset of rows. Its chunk is one row of a map; other data are one chunk.
-  Id make(const char* name, hid_t type, const std::vector<hsize_t>& of_row, bool row_by_row) {
+  Hdf5Id make(const char* name, hid_t type, const std::vector<hsize_t>& of_row, bool row_by_row) {
     std::vector<hsize_t> size{shape.images}, chunk{row_by_row ? 1 : shape.images};
     size.insert(size.end(), of_row.begin(), of_row.end());
     chunk.insert(chunk.end(), of_row.begin(), of_row.end());
-    const Id space(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
-    const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(how, false);  // equal images give equal bytes
+    const Hdf5Id space(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    const Hdf5Id how = hdf5_without_time(H5P_DATASET_CREATE);
     H5Pset_chunk(how, int(chunk.size()), chunk.data());
     H5Pset_deflate(how, kDeflateLevel);
     H5Pset_fletcher32(how);
-    Id made(H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+    Hdf5Id made(H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
     need(made >= 0);
     return made;
   }
 
   void write_all(const char* name, hid_t stored, hid_t in_memory, const std::vector<hsize_t>& of_row,
                  const void* values) {
-    const Id made = make(name, stored, of_row, false);
+    const Hdf5Id made = make(name, stored, of_row, false);
     need(H5Dwrite(made, in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
   }
 
@@ -142,15 +96,8 @@ struct ShardWriter::State {
     for (const std::string& text : texts) longest = std::max(longest, text.size());
     std::string joined(longest * texts.size(), '\0');
     for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(joined.data() + i * longest, longest);
-    const Id type = text_type(longest);
+    const Hdf5Id type = hdf5_text(longest);
     write_all(name, type, type, {}, joined.data());
-  }
-
-  void write_attribute(const std::string& name, const std::string& text) const {
-    const Id type = text_type(text.size());
-    const Id space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Id attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    need(attribute >= 0 && H5Awrite(attribute, type, text.empty() ? "\0" : text.c_str()) >= 0);
   }
 };
 
@@ -158,18 +105,17 @@ ShardWriter::ShardWriter(const std::filesystem::path& temporary, const std::file
                          const ShardShape& shape, const std::vector<std::pair<std::string, std::string>>& about)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  use_library();
+  use_hdf5();
   s.temporary = temporary;
   s.shown = shown;
   s.shape = shape;
   errno = 0;
-  const Id how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Hdf5Id how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(how, H5F_LIBVER_V110, H5F_LIBVER_V110);  // the first whose structures have checksums too
-  const Id made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(made, false);
-  s.file = Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, made, how), H5Fclose);
+  const Hdf5Id made = hdf5_without_time(H5P_FILE_CREATE);
+  s.file = Hdf5Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, made, how), H5Fclose);
   s.need(s.file >= 0);
-  for (const auto& [name, text] : about) s.write_attribute(name, text);
+  for (const auto& [name, text] : about) s.need(write_hdf5_attribute(s.file, name, text));
   for (std::size_t i = 0; i < s.maps.size(); ++i)
     s.maps[i] = s.make(kMaps[i], H5T_STD_U8LE, {hsize_t(shape.height), hsize_t(shape.width)}, true);
   const std::size_t n = shape.images;
@@ -189,13 +135,13 @@ ShardWriter::~ShardWriter() = default;
 
 void ShardWriter::put(std::uint32_t row, const DatasetImage& image) {
   State& s = *state_;
-  use_library();
+  use_hdf5();
   errno = 0;
   const hsize_t start[] = {row, 0, 0}, size[] = {1, hsize_t(s.shape.height), hsize_t(s.shape.width)};
   const Image<std::uint8_t>* maps[] = {&image.grey, &image.truth.label, &image.truth.visible_label, &image.truth.reach};
-  const Id in_memory(H5Screate_simple(3, size, nullptr), H5Sclose);
+  const Hdf5Id in_memory(H5Screate_simple(3, size, nullptr), H5Sclose);
   for (std::size_t i = 0; i < s.maps.size(); ++i) {
-    const Id in_file(H5Dget_space(s.maps[i]), H5Sclose);
+    const Hdf5Id in_file(H5Dget_space(s.maps[i]), H5Sclose);
     H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start, nullptr, size, nullptr);
     s.need(H5Dwrite(s.maps[i], H5T_NATIVE_UINT8, in_memory, in_file, H5P_DEFAULT, maps[i]->pixels.data()) >= 0);
   }
@@ -221,7 +167,7 @@ void ShardWriter::finish() {
   State& s = *state_;
   if (std::count(s.put.begin(), s.put.end(), 1) != std::ptrdiff_t(s.put.size()))
     throw std::logic_error("a shard lacks an image");
-  use_library();
+  use_hdf5();
   errno = 0;
   s.write_all("patient_from_pixel", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {4, 4}, s.patient_from_pixel.data());
   s.write_all("patient_from_probe", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {4, 4}, s.patient_from_probe.data());
@@ -234,9 +180,9 @@ void ShardWriter::finish() {
   s.write_texts("digest", s.digest);
   std::string all_digests;
   for (const std::string& digest : s.digest) all_digests += digest;
-  s.write_attribute("digest", digest_of(all_digests));
+  s.need(write_hdf5_attribute(s.file, "digest", digest_of(all_digests)));
   bool closed = true;
-  for (Id& map : s.maps) closed = map.close() && closed;
+  for (Hdf5Id& map : s.maps) closed = map.close() && closed;
   closed = s.file.close() && closed;
   s.need(closed);
   s.need(flush_to_disk(s.temporary));
@@ -250,8 +196,8 @@ bool flush_to_disk(const std::filesystem::path& file) {
 }
 
 ShardSummary read_shard_summary(const std::filesystem::path& path) {
-  use_library();
-  const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  use_hdf5();
+  const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   const ShardSummary summary{attribute_of(file, "study_digest"), attribute_of(file, "case_digest"),
                              attribute_of(file, "device"), attribute_of(file, "digest")};
   if (file < 0 || summary.study_digest.empty() || summary.digest.empty())
@@ -261,13 +207,13 @@ ShardSummary read_shard_summary(const std::filesystem::path& path) {
 }
 
 std::string damage_of_shard(const std::filesystem::path& path) {
-  use_library();
-  const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  use_hdf5();
+  const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file < 0) return "it is not an HDF5 file, or its structure is damaged";
   hsize_t images = 0;
   for (const char* name : kMaps) {
-    const Id data = opened(file, name);
-    const Id space(H5Dget_space(data), H5Sclose);
+    const Hdf5Id data = opened(file, name);
+    const Hdf5Id space(H5Dget_space(data), H5Sclose);
     hsize_t size[3] = {};
     if (data < 0 || H5Sget_simple_extent_ndims(space) != 3 || H5Sget_simple_extent_dims(space, size, nullptr) < 0)
       return std::string("it has no data '") + name + "'";
@@ -275,7 +221,7 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     if (images > kMaxShardImages || size[1] > kMaxPixels || size[2] > kMaxPixels / std::max<hsize_t>(size[1], 1))
       return std::string("the size of its data '") + name + "' is damaged";
     const hsize_t row[] = {1, size[1], size[2]};
-    const Id in_memory(H5Screate_simple(3, row, nullptr), H5Sclose);
+    const Hdf5Id in_memory(H5Screate_simple(3, row, nullptr), H5Sclose);
     std::vector<std::uint8_t> pixels(size[1] * size[2]);
     for (hsize_t i = 0; i < size[0]; ++i) {
       const hsize_t start[] = {i, 0, 0};
@@ -285,8 +231,8 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     }
   }
   for (const char* name : kOtherData) {
-    const Id data = opened(file, name);
-    const Id type(H5Dget_type(data), H5Tclose), space(H5Dget_space(data), H5Sclose);
+    const Hdf5Id data = opened(file, name);
+    const Hdf5Id type(H5Dget_type(data), H5Tclose), space(H5Dget_space(data), H5Sclose);
     const hssize_t values = H5Sget_simple_extent_npoints(space);
     if (data < 0 || values < 0) return std::string("it has no data '") + name + "'";
     const std::size_t of_value = H5Tget_size(type);
@@ -297,9 +243,9 @@ std::string damage_of_shard(const std::filesystem::path& path) {
     if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
       return "its data '" + std::string(name) + "' are damaged";
   }
-  const Id digests = opened(file, "digest");
-  const Id space(H5Dget_space(digests), H5Sclose);
-  const Id type = text_type(kDigestSize);
+  const Hdf5Id digests = opened(file, "digest");
+  const Hdf5Id space(H5Dget_space(digests), H5Sclose);
+  const Hdf5Id type = hdf5_text(kDigestSize);
   if (digests < 0 || H5Sget_simple_extent_npoints(space) != hssize_t(images)) return "its list of digests is damaged";
   std::string all(std::size_t(images) * kDigestSize, '\0');
   if (H5Dread(digests, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) return "its list of digests is damaged";

@@ -10,6 +10,7 @@
 #include "sim/core/input_error.h"
 #include "sim/core/text.h"
 #include "sim/files/files.h"
+#include "tools/register/itk_transform.h"
 
 namespace insonate {
 namespace {
@@ -41,8 +42,10 @@ DeformationGrids deformation_grids(const FreeFormField& field, const glm::dmat4&
   return {grid_over(low, high, voxel_mm), grid_over(least, most, voxel_mm)};
 }
 
-void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid, const ItkTransform& displacements) {
-  const std::vector<float> values(displacements.parameters.begin(), displacements.parameters.end());
+void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid,
+                         const std::function<glm::dvec3(const glm::dvec3&)>& map) {
+  const std::vector<double> exact = itk_displacements(grid, map).parameters;
+  const std::vector<float> values(exact.begin(), exact.end());
   const auto vector = [](const glm::dvec3& v) {
     return "(" + exact_text(v.x) + "," + exact_text(v.y) + "," + exact_text(v.z) + ")";
   };

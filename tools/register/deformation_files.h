@@ -1,13 +1,14 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "sim/core/grid.h"
 #include "sim/registration/free_form.h"
-#include "tools/register/itk_transform.h"
 
 namespace insonate {
 
@@ -18,10 +19,11 @@ struct DeformationGrids {
 };
 DeformationGrids deformation_grids(const FreeFormField& field, const glm::dmat4& ct_from_sweep);
 
-/// Writes the displacements of itk_displacements(grid, ...) as ITK and 3D Slicer read an image of vectors (NRRD): 3
-/// floats per voxel. Between voxels they are linear, so that an affine map is exact. Throws InputError if it cannot be
-/// written.
-void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid, const ItkTransform& displacements);
+/// Writes a displacement field as ITK and 3D Slicer read it (NRRD): at each voxel p of the grid, map(p) - p, mm, LPS,
+/// 3 floats. Between voxels it is linear, so that an affine map is exact. Beyond the grid ITK and Slicer leave points
+/// where they are. Throws InputError if it cannot be written.
+void write_displacements(const std::filesystem::path& nrrd_file, const Grid& grid,
+                         const std::function<glm::dvec3(const glm::dvec3&)>& map);
 
 /// Returns how a deformation ended, in one sentence: "Deformation: ..." or "No deformation: ...".
 std::string sentence_about(const FreeFormRegistration& found);

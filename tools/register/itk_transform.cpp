@@ -1,78 +1,48 @@
 #include "tools/register/itk_transform.h"
 
-#include <hdf5.h>
 #include <tbb/parallel_for.h>
 
-#include <new>
-#include <utility>
+#include <stdexcept>
 
 #include "sim/core/text.h"
+#include "tools/cli/hdf5_id.h"
 
 namespace insonate {
 namespace {
 
-/// An identifier of the HDF5 library, which is closed at the end.
-class Id {
-public:
-  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::bad_alloc();  // nothing else can fail, since the file lies in memory
-  }
-  Id(const Id&) = delete;
-  Id& operator=(const Id&) = delete;
-  ~Id() { close_(id_); }
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void need(herr_t status) {
-  if (status < 0) throw std::bad_alloc();
-}
-
-// Without the time of its creation, so that the same transform gives the same bytes.
-Id timeless(hid_t kind) {
-  const hid_t properties = H5Pcreate(kind);
-  H5Pset_obj_track_times(properties, false);
-  return {properties, H5Pclose};
+void need(bool done) {
+  if (!done) throw std::runtime_error("the HDF5 library cannot write a transform");
 }
 
 void write_values(hid_t file, const std::string& path, const std::vector<double>& values) {
   const hsize_t size = values.size();
-  const Id space(H5Screate_simple(1, &size, nullptr), H5Sclose), how = timeless(H5P_DATASET_CREATE);
-  const Id data(H5Dcreate2(file, path.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
-  need(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose), how = hdf5_without_time(H5P_DATASET_CREATE);
+  const Hdf5Id data(H5Dcreate2(file, path.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+  need(data >= 0 && H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
 }
 
 // ITK reads texts of variable length only.
 void write_text(hid_t file, const std::string& path, const std::string& text) {
-  const Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  need(H5Tset_size(type, H5T_VARIABLE));
+  const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  need(H5Tset_size(type, H5T_VARIABLE) >= 0);
   const hsize_t size = 1;
-  const Id space(H5Screate_simple(1, &size, nullptr), H5Sclose), how = timeless(H5P_DATASET_CREATE);
-  const Id data(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+  const Hdf5Id space(H5Screate_simple(1, &size, nullptr), H5Sclose), how = hdf5_without_time(H5P_DATASET_CREATE);
+  const Hdf5Id data(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
   const char* of_text = text.c_str();
-  need(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &of_text));
+  need(data >= 0 && H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &of_text) >= 0);
 }
 
-void write_comment(hid_t file, const std::string& comment) {
-  const Id type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
-  need(H5Tset_size(type, comment.size() + 1));
-  need(H5Tset_cset(type, H5T_CSET_UTF8));
-  const Id attribute(H5Acreate2(file, "comment", type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  need(H5Awrite(attribute, type, comment.c_str()));
+void make_group(hid_t file, const std::string& path) {
+  const Hdf5Id how = hdf5_without_time(H5P_GROUP_CREATE);
+  need(Hdf5Id(H5Gcreate2(file, path.c_str(), H5P_DEFAULT, how, H5P_DEFAULT), H5Gclose) >= 0);
 }
 
-void make_group(hid_t file, const char* path) {
-  const Id group(H5Gcreate2(file, path, H5P_DEFAULT, timeless(H5P_GROUP_CREATE), H5P_DEFAULT), H5Gclose);
-}
-
-// ITK misspells the names of the parameters; later versions also read them as they should be.
-void write_parameters(hid_t file, const std::string& kind, const std::vector<double>& values) {
-  const std::string misspelt = "/TransformGroup/0/Tranform" + kind, name = "/TransformGroup/0/Transform" + kind;
+// ITK misspells the names of the parameters; later versions read the right spelling too.
+void write_parameters(hid_t file, const std::string& group, const std::string& kind,
+                      const std::vector<double>& values) {
+  const std::string misspelt = group + "/Tranform" + kind, name = group + "/Transform" + kind;
   write_values(file, misspelt, values);
-  need(H5Lcreate_hard(file, misspelt.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+  need(H5Lcreate_hard(file, misspelt.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
 }
 
 }  // namespace
@@ -113,21 +83,31 @@ std::string as_tfm(const ItkTransform& transform, const std::string& comment) {
   return text + "\n";
 }
 
-std::string as_hdf5(const ItkTransform& transform, const std::string& comment) {
-  const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), how = timeless(H5P_FILE_CREATE);
-  need(H5Pset_fapl_core(access, std::size_t(1) << 20, false));  // in memory, which grows by so many bytes
-  const Id file(H5Fcreate("transform", H5F_ACC_TRUNC, how, access), H5Fclose);
-  write_comment(file, comment);
+std::string as_hdf5(const std::vector<ItkTransform>& applied_last_to_first, const std::string& comment) {
+  use_hdf5();
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), how = hdf5_without_time(H5P_FILE_CREATE);
+  need(H5Pset_fapl_core(access, std::size_t(1) << 20, false) >= 0);  // in memory, which grows by so many bytes
+  const Hdf5Id file(H5Fcreate("a transform in memory", H5F_ACC_TRUNC, how, access), H5Fclose);
+  need(file >= 0 && write_hdf5_attribute(file, "comment", comment));
+  int written = 0;
+  const auto next_group = [&](const std::string& type) {
+    std::string group = "/TransformGroup/" + std::to_string(written++);
+    make_group(file, group);
+    write_text(file, group + "/TransformType", type);
+    return group;
+  };
   make_group(file, "/TransformGroup");
-  make_group(file, "/TransformGroup/0");
-  write_text(file, "/TransformGroup/0/TransformType", transform.type);
-  write_parameters(file, "FixedParameters", transform.fixed_parameters);
-  write_parameters(file, "Parameters", transform.parameters);
-  need(H5Fflush(file, H5F_SCOPE_LOCAL));
+  if (applied_last_to_first.size() > 1) next_group("CompositeTransform_double_3_3");
+  for (const ItkTransform& transform : applied_last_to_first) {
+    const std::string group = next_group(transform.type);
+    write_parameters(file, group, "FixedParameters", transform.fixed_parameters);
+    write_parameters(file, group, "Parameters", transform.parameters);
+  }
+  need(H5Fflush(file, H5F_SCOPE_LOCAL) >= 0);
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  if (size < 0) throw std::bad_alloc();
+  need(size > 0);
   std::string bytes(std::size_t(size), '\0');
-  if (H5Fget_file_image(file, bytes.data(), bytes.size()) < 0) throw std::bad_alloc();
+  need(H5Fget_file_image(file, bytes.data(), bytes.size()) >= 0);
   return bytes;
 }
 

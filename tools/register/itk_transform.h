@@ -29,7 +29,9 @@ ItkTransform itk_displacements(const Grid& grid, const std::function<glm::dvec3(
 std::string as_tfm(const ItkTransform& transform, const std::string& comment);
 
 /// Returns the bytes of an .h5 file (HDF5), as ITK's HDF5TransformIO reads it; equal transforms give equal bytes.
-/// `comment` becomes an attribute of the file. Throws std::bad_alloc.
-std::string as_hdf5(const ItkTransform& transform, const std::string& comment);
+/// @param applied_last_to_first  one transform or more, which become a composite transform
+/// @param comment                becomes an attribute of the file
+/// Throws std::bad_alloc, and std::runtime_error if the library fails otherwise. Not for several threads at once.
+std::string as_hdf5(const std::vector<ItkTransform>& applied_last_to_first, const std::string& comment);
 
 }  // namespace insonate

@@ -325,22 +325,26 @@ void write_registration(const std::filesystem::path& out, RegistrationReport rep
                                        deformation, kShownImages);
     write_file(folder / "registration.json", registration_json(report));
     const glm::dmat4 sweep_from_ct = glm::inverse(found.ct_from_sweep);
-    ItkTransform forth = itk_affine(found.ct_from_sweep), back = itk_affine(sweep_from_ct);
+    const ItkTransform forth = itk_affine(found.ct_from_sweep), back = itk_affine(sweep_from_ct);
     write_file(folder / "ct_from_sweep.tfm", as_tfm(forth, of_matrix));
     write_file(folder / "sweep_from_ct.tfm", as_tfm(back, of_matrix));
+    std::vector<ItkTransform> all_forth{forth}, all_back{back};
     if (deformation) {
       const DeformationGrids grids = deformation_grids(*deformation, found.ct_from_sweep);
-      forth = itk_displacements(grids.of_sweep, [&](const glm::dvec3& p) {
-        return glm::dvec3(found.ct_from_sweep * glm::dvec4(deformation->at(p), 1));
+      const auto deformed = [&](const glm::dvec3& p) { return deformation->at(p); };
+      const auto undeformed = [&](const glm::dvec3& p) { return deformation->inverse(p); };
+      write_displacements(folder / "ct_from_sweep.nrrd", grids.of_sweep, [&](const glm::dvec3& p) {
+        return glm::dvec3(found.ct_from_sweep * glm::dvec4(deformed(p), 1));
       });
-      back = itk_displacements(grids.of_ct, [&](const glm::dvec3& p) {
-        return deformation->inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
+      write_displacements(folder / "sweep_from_ct.nrrd", grids.of_ct, [&](const glm::dvec3& p) {
+        return undeformed(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
       });
-      write_displacements(folder / "ct_from_sweep.nrrd", grids.of_sweep, forth);
-      write_displacements(folder / "sweep_from_ct.nrrd", grids.of_ct, back);
+      // The deformation lies in the sweep's frame, and is 0 from the grid's edge on.
+      all_forth.push_back(itk_displacements(grids.of_sweep, deformed));
+      all_back.insert(all_back.begin(), itk_displacements(grids.of_sweep, undeformed));
     }
-    write_file(folder / "ct_from_sweep.h5", as_hdf5(forth, sentence));
-    write_file(folder / "sweep_from_ct.h5", as_hdf5(back, sentence));
+    write_file(folder / "ct_from_sweep.h5", as_hdf5(all_forth, sentence));
+    write_file(folder / "sweep_from_ct.h5", as_hdf5(all_back, sentence));
     write_file(folder / "evaluations.csv", evaluations_csv(report));
     write_file(folder / "index.html", registration_page(report));
     write_file(folder / "scene.mrml", slicer_scene(sentence, deformation != nullptr));

@@ -56,10 +56,9 @@ std::string registration_page(const RegistrationReport& report);
 std::string slicer_scene(const std::string& verdict, bool is_deformed);
 
 /// Writes everything about a registration into a new folder, whole or not at all: registration.json, the transforms,
-/// evaluations.csv, index.html with its pictures, and the scene with its volumes. With a deformation, also
-/// ct_from_sweep.nrrd and sweep_from_ct.nrrd, which hold the whole maps, as the .h5 files do; the .tfm files then hold
-/// the affine part. Throws InputError if it cannot
-/// be written or exists.
+/// evaluations.csv, index.html with its pictures, and the scene with its volumes. With a deformation the .tfm files
+/// hold the affine part alone and the .h5 files the whole maps, as do ct_from_sweep.nrrd and sweep_from_ct.nrrd, which
+/// are then written too. Throws InputError if it cannot be written or exists, and std::bad_alloc.
 void write_registration(const std::filesystem::path& folder, RegistrationReport report, const Volume<std::int16_t>& ct);
 
 /// Returns the sweep as a volume of grey levels in its own frame.

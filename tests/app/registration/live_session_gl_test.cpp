@@ -163,8 +163,9 @@ TEST_CASE("a near start is refined while the probe moves, and a wide search make
     const TemporaryFolder folder;
     CHECK(live.session.save(folder.path / "out") == folder.path / "out");
     CHECK(live.session.save(folder.path / "out") == folder.path / "out-2");
-    for (const char* file : {"registration.json", "ct_from_sweep.tfm", "sweep_from_ct.tfm", "evaluations.csv",
-                             "index.html", "scene.mrml", "ct.nrrd", "sweep.nrrd"})
+    for (const char* file :
+         {"registration.json", "ct_from_sweep.tfm", "sweep_from_ct.tfm", "ct_from_sweep.h5", "sweep_from_ct.h5",
+          "evaluations.csv", "index.html", "scene.mrml", "ct.nrrd", "sweep.nrrd"})
       CHECK(std::filesystem::exists(folder.path / "out-2" / file));
     const std::string json = read_file(folder.path / "out" / "registration.json");
     for (const std::string& part :

@@ -27,7 +27,7 @@ echo "a near start is registered, and everything about it is written"
   --state-file "$work/state.json" >"$work/said" 2>&1 || fail "exit code $?"
 grep -q '^Found in the images: curvilinear, radius ' "$work/said" || fail "the probe was not found"
 grep -q '^Converged: the expected error' "$work/said" || fail "no verdict"
-for file in registration.json ct_from_sweep.tfm sweep_from_ct.tfm scene.mrml sweep.nrrd evaluations.csv index.html; do
+for file in registration.json ct_from_sweep.tfm sweep_from_ct.tfm ct_from_sweep.h5 sweep_from_ct.h5 scene.mrml sweep.nrrd evaluations.csv index.html; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
 grep -q '"converged": true' "$work/state.json" || fail "the state is not that at the end"

@@ -286,6 +286,8 @@ TEST_CASE("a recording of a body that has breathed is registered with a deformat
     CHECK(
         read_file(out / file).find("# The affine part alone; the .h5 and .nrrd files hold the whole map. Converged") !=
         std::string::npos);
+  for (const char* file : {"ct_from_sweep.h5", "sweep_from_ct.h5"})
+    CHECK(read_file(out / file).find("DisplacementFieldTransform_double_3_3") != std::string::npos);
   CHECK(read_file(out / "scene.mrml").find("fileName=\"sweep_from_ct.nrrd\"") != std::string::npos);
   const std::string csv = read_file(out / "evaluations.csv"), page = read_file(out / "index.html");
   CHECK(csv.find(",shear_xy_mm,bending_energy_mm-2\n0,") != std::string::npos);

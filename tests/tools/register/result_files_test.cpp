@@ -8,7 +8,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
-#include <hdf5.h>
 
 #include <cmath>
 #include <cstring>
@@ -19,6 +18,7 @@
 
 #include "sim/core/input_error.h"
 #include "tests/core/run_program.h"
+#include "tools/cli/hdf5_id.h"
 #include "tools/register/comparison_pictures.h"
 #include "tools/register/deformation_files.h"
 #include "tools/register/itk_transform.h"
@@ -49,31 +49,37 @@ TEST_CASE("a transform is written as ITK reads it, and never without its verdict
 
 namespace {
 
-// Reads a transform as ITK's HDF5TransformIO does, which takes one spelling of the parameters' names or the other.
-ItkTransform read_as_itk(const std::filesystem::path& path, const std::string& transform) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  REQUIRE(file >= 0);
-  const auto values = [&](const std::string& name) {
-    const hid_t data = H5Dopen2(file, ("/TransformGroup/0/" + transform + name).c_str(), H5P_DEFAULT);
-    REQUIRE(data >= 0);
-    hsize_t size = 0;
-    const hid_t space = H5Dget_space(data);
-    REQUIRE(H5Sget_simple_extent_dims(space, &size, nullptr) == 1);
-    std::vector<double> read(size);
-    CHECK(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()) >= 0);
-    H5Sclose(space);
-    H5Dclose(data);
-    return read;
-  };
-  const hid_t text = H5Tcopy(H5T_C_S1), type = H5Dopen2(file, "/TransformGroup/0/TransformType", H5P_DEFAULT);
-  H5Tset_size(text, H5T_VARIABLE);
-  char* name = nullptr;
-  REQUIRE(H5Dread(type, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, &name) >= 0);
-  ItkTransform read{name, values("FixedParameters"), values("Parameters")};
-  H5free_memory(name);
-  H5Dclose(type);
-  H5Tclose(text);
-  H5Fclose(file);
+// Reads the transforms of a file as ITK's HDF5TransformIO does, which takes one spelling of the parameters' names or
+// the other.
+std::vector<ItkTransform> read_as_itk(const std::filesystem::path& path, const std::string& spelling) {
+  const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Id all(H5Gopen2(file, "/TransformGroup", H5P_DEFAULT), H5Gclose);
+  H5G_info_t groups{};
+  REQUIRE(H5Gget_info(all, &groups) >= 0);
+  std::vector<ItkTransform> read;
+  for (hsize_t i = 0; i < groups.nlinks; ++i) {
+    const Hdf5Id group(H5Gopen2(all, std::to_string(i).c_str(), H5P_DEFAULT), H5Gclose);
+    const auto values = [&](const std::string& name) {
+      const Hdf5Id data(H5Dopen2(group, (spelling + name).c_str(), H5P_DEFAULT), H5Dclose);
+      REQUIRE(data >= 0);
+      hsize_t size = 0;
+      const Hdf5Id space(H5Dget_space(data), H5Sclose);
+      REQUIRE(H5Sget_simple_extent_dims(space, &size, nullptr) == 1);
+      std::vector<double> numbers(size);
+      CHECK(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+      return numbers;
+    };
+    const Hdf5Id text(H5Tcopy(H5T_C_S1), H5Tclose), type(H5Dopen2(group, "TransformType", H5P_DEFAULT), H5Dclose);
+    H5Tset_size(text, H5T_VARIABLE);
+    char* name = nullptr;
+    REQUIRE(H5Dread(type, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, &name) >= 0);
+    ItkTransform& transform = read.emplace_back();
+    transform.type = name;
+    H5free_memory(name);
+    if (transform.type.find("Composite") == 0) continue;  // it has no parameters of its own
+    transform.fixed_parameters = values("FixedParameters");
+    transform.parameters = values("Parameters");
+  }
   return read;
 }
 
@@ -92,16 +98,23 @@ TEST_CASE("a transform is the same in HDF5, under both spellings of ITK's names"
   const glm::dvec3 p = grid.patient_from_index({2, 1, 3}), by = moved(p) - p;
   for (int axis = 0; axis < 3; ++axis)
     CHECK(field.parameters[3 * (2 + 3 * (1 + 4 * 3)) + std::size_t(axis)] == Approx(by[axis]));
-  for (const ItkTransform& transform : {itk_affine(map), field}) {
-    const std::string bytes = as_hdf5(transform, "Converged");
-    CHECK(bytes == as_hdf5(transform, "Converged"));
+  for (const std::vector<ItkTransform>& transforms : {std::vector{field}, {itk_affine(map), field}}) {
+    const std::string bytes = as_hdf5(transforms, "Converged");
+    CHECK(bytes == as_hdf5(transforms, "Converged"));
     CHECK(bytes.find("Converged") != std::string::npos);
     folder.put("transform.h5", bytes);
     for (const char* spelling : {"Tranform", "Transform"}) {
-      const ItkTransform read = read_as_itk(folder.path / "transform.h5", spelling);
-      CHECK(read.type == transform.type);
-      CHECK(read.fixed_parameters == transform.fixed_parameters);
-      CHECK(read.parameters == transform.parameters);
+      std::vector<ItkTransform> read = read_as_itk(folder.path / "transform.h5", spelling);
+      if (transforms.size() > 1) {
+        CHECK(read.front().type == "CompositeTransform_double_3_3");
+        read.erase(read.begin());
+      }
+      REQUIRE(read.size() == transforms.size());
+      for (std::size_t i = 0; i < read.size(); ++i) {
+        CHECK(read[i].type == transforms[i].type);
+        CHECK(read[i].fixed_parameters == transforms[i].fixed_parameters);
+        CHECK(read[i].parameters == transforms[i].parameters);
+      }
     }
   }
 }
@@ -135,12 +148,10 @@ TEST_CASE("displacements of both directions undo each other, also beyond the fie
   const glm::dmat4 sweep_from_ct = glm::inverse(ct_from_sweep);
   const DeformationGrids grids = deformation_grids(field, ct_from_sweep);
   CHECK(grids.of_sweep.spacing == glm::dvec3(2.5));
-  write_displacements(folder.path / "there.nrrd", grids.of_sweep, itk_displacements(grids.of_sweep, [&](const auto& p) {
-                        return glm::dvec3(ct_from_sweep * glm::dvec4(field.at(p), 1));
-                      }));
-  write_displacements(folder.path / "back.nrrd", grids.of_ct, itk_displacements(grids.of_ct, [&](const auto& p) {
-                        return field.inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1)));
-                      }));
+  write_displacements(folder.path / "there.nrrd", grids.of_sweep,
+                      [&](const glm::dvec3& p) { return glm::dvec3(ct_from_sweep * glm::dvec4(field.at(p), 1)); });
+  write_displacements(folder.path / "back.nrrd", grids.of_ct,
+                      [&](const glm::dvec3& p) { return field.inverse(glm::dvec3(sweep_from_ct * glm::dvec4(p, 1))); });
   // Reads a field as NRRD defines it, by its header alone.
   struct Read {
     std::string header;

@@ -47,10 +47,10 @@ struct Stage {
   Probe probe;
   double depth_mm;
   Settings settings;
-  Pose pose;
+  Pose start, pose;
 
   Stage(const Scene& scene, const view::TransferFunction& look)
-      : ct(ct_of(scene.volume)), probe(scene.probe), depth_mm(scene.depth_mm), pose(scene.pose) {
+      : ct(ct_of(scene.volume)), probe(scene.probe), depth_mm(scene.depth_mm), start(scene.pose), pose(start) {
     gl::upload_ct(scene.file, scene.volume.grid, [&] { simulator.set_volume(scene.volume, scene.table); });
     patient.emplace(simulator.volume_texture(), ct, Volume<std::uint8_t>(), view::OrganColours());
     probe.lines = 512;
@@ -87,7 +87,7 @@ struct TableRow {
 const std::array<TableRow, 6> kTableRows{{
     {"nothing", [](Stage&, int) {}},
     {"volume pose", [](Stage& s, int) { s.camera.orbit(1, 0.3); }},
-    {"transducer pose", [](Stage& s, int frame) { s.pose = wandering(s.pose, frame); }},
+    {"transducer pose", [](Stage& s, int frame) { s.pose = wandering(s.start, frame); }},
     {"transducer shape", [](Stage& s, int frame) { s.depth_mm += frame % 2 ? 1 : -1; }},
     {"simulation parameter", [](Stage& s, int frame) { s.settings.blend *= frame % 2 ? 1.1 : 1 / 1.1; }},
     {"transfer function",
