@@ -119,21 +119,24 @@ ScanLines scan_lines(const Probe& probe, double depth_mm, int samples, double st
 }
 
 std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm) {
+  // So that of two pixels that lie on opposite edges, both are inside, however they were rounded.
+  const double slack_mm = 1e-12 * (depth_mm + probe.radius_mm), slack = 1e-12;
   double across = 0, r = 0;
   if (probe.kind == ProbeKind::linear) {
     across = xy_mm.x / probe.width_mm + 0.5;
     r = xy_mm.y;
   } else {
     const bool phased = probe.kind == ProbeKind::phased;
-    if (phased && xy_mm.y < 0) return std::nullopt;
+    if (phased && xy_mm.y < -slack_mm) return std::nullopt;
     const double below_apex = xy_mm.y + apex_behind_mm(probe);
     const double from_apex = glm::length(glm::dvec2(xy_mm.x, below_apex));
     r = phased ? from_apex * xy_mm.y / below_apex : from_apex - probe.radius_mm;
-    if (r < 0 || r > depth_mm) return std::nullopt;  // most pixels beside a fan end here, before the angle
+    if (r < -slack_mm || r > depth_mm + slack_mm)
+      return std::nullopt;  // most pixels beside a fan end here, before the angle
     across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
   }
-  if (across < 0 || across > 1 || r < 0 || r > depth_mm) return std::nullopt;
-  return LinePosition{across * probe.lines - 0.5, r};
+  if (across < -slack || across > 1 + slack || r < -slack_mm || r > depth_mm + slack_mm) return std::nullopt;
+  return LinePosition{std::clamp(across, 0.0, 1.0) * probe.lines - 0.5, std::clamp(r, 0.0, depth_mm)};
 }
 
 LinePosition position_among(const LineFan& fan, const glm::dvec2& xy_mm) {

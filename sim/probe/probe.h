@@ -99,8 +99,8 @@ struct LinePosition {
   double r_mm;  ///< distance from the face along the line
 };
 
-/// Returns the position of a point among the lines. Returns nothing outside the fan: beyond its edges, in front of the
-/// face, or deeper than `depth_mm`.
+/// Returns the position of a point among the lines. Returns nothing outside the fan: beyond its edges (which belong to
+/// it, however a point on one was rounded), in front of the face, or deeper than `depth_mm`.
 /// @param depth_mm  0.1 to 1000
 std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, const glm::dvec2& xy_mm);
 

@@ -122,6 +122,23 @@ TEST_CASE("the pixels inside the fan measure its area to 1 %") {
     }
 }
 
+TEST_CASE("of two pixels that mirror each other both are inside the fan or neither, also on its edges") {
+  for (const Probe& probe : probes())
+    for (const double depth_mm : {probe.width_mm / 3, 60.0, 160.0})
+      for (int width = 1; width < 48; ++width)
+        for (int height = 1; height < 48; ++height) {
+          const ImageGeometry image = image_geometry(probe, depth_mm, width, height);
+          const auto is_inside = [&](int x, int y) {
+            return line_position(probe, depth_mm, image.plane_mm(x, y)).has_value();
+          };
+          for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width / 2; ++x)
+              if (is_inside(x, y) != is_inside(width - 1 - x, y))
+                FAIL(probe.name << " to " << depth_mm << " mm, " << width << " x " << height << ", at " << x << " "
+                                << y);
+        }
+}
+
 TEST_CASE("the picture shows the whole fan, centred, with square pixels") {
   for (const Probe& probe : probes())
     for (auto [width, height] : {std::pair(640, 480), std::pair(300, 900)}) {
