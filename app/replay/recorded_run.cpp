@@ -97,6 +97,12 @@ public:
         moment.on_skin = live.on_skin;
         moment.within_tolerance = live.within_tolerance;
         moment.view = live.view;
+      } else if (!std::exchange(finished_, true) && !run_.moments.empty()) {
+        // The sample that ends the exam is not measured; it follows the one before within a frame.
+        const RunMoment& before = run_.moments.back();
+        moment.on_skin = before.on_skin;
+        moment.within_tolerance = before.within_tolerance;
+        moment.view = before.view;
       }
     }
     ProbeSample timed = sample;
@@ -122,6 +128,7 @@ private:
   RecordedRun& run_;
   double first_s_;
   std::optional<double> last_usable_s_;
+  bool finished_ = false;
   MotionMeter motion_;
   PictureTools tools_;  ///< tracks the annotations as the screen's tools would; no learner uses it
 };

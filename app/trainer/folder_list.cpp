@@ -79,6 +79,12 @@ std::string kind_in_words(Material material, Wanted wanted) {
   return "";
 }
 
+/// The file's voxels are not read for a list, so its name decides.
+bool is_named_as_labels(const fs::path& file) {
+  const std::string name = lower(file.filename().string());
+  return name.find("label") != std::string::npos || name.find("seg") != std::string::npos;
+}
+
 std::int64_t changed_s(const fs::path& path) {
   struct stat status {};
   return stat(path.c_str(), &status) == 0 ? std::int64_t(status.st_mtime) : 0;
@@ -97,6 +103,7 @@ std::optional<FolderEntry> entry_of(const fs::directory_entry& found, Wanted wan
     if (is_folder(wanted)) return std::nullopt;
     const std::optional<Material> material = wanted == Wanted::results ? std::nullopt : material_of(entry.path);
     if (material) entry.kind = kind_in_words(*material, wanted);
+    if (entry.kind == "CT" && is_named_as_labels(entry.path)) entry.kind = "labels";
     if (wanted == Wanted::results && entry.path.extension() == ".db") entry.kind = "results";
     if (entry.kind.empty()) return std::nullopt;
     entry.bytes = found.file_size(error);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "app/trainer/start_page.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 
 namespace insonate {
@@ -58,8 +59,8 @@ std::string StartPage::why_no_exam() const {
   if (const Sitting* begun = begun_in(scenarios_[*scenario]))
     return learner() + " began this exam on " + utc_time(begun->began_ms) +
            " and has not handed it in. End it where it is being taken, or have what there is of it scored: "
-           "'insonate-score hand-in " +
-           database_.string() + "'.";
+           "insonate-score hand-in " +
+           shell_word(database_.string());
   return "";
 }
 

@@ -9,6 +9,7 @@
 #include "devices/calibration/calibration.h"
 #include "devices/calibration/utc.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/files/toml_table.h"
 #include "sim/files/toml_value.h"
@@ -215,8 +216,9 @@ Calibration read_calibration(const std::filesystem::path& file) {
 Calibration read_complete_calibration(const std::filesystem::path& file) {
   Calibration calibration = read_calibration(file);
   if (const std::string missing = why_incomplete(calibration); !missing.empty())
-    throw InputError(file.string(), "", "the step '" + missing + "' has not been made",
-                     "make it: 'insonate-devices calibrate " + missing + " --tracker URI --out " + file.string() + "'");
+    throw InputError(
+        file.string(), "", "the step '" + missing + "' has not been made",
+        "make it: insonate-devices calibrate " + missing + " --tracker URI --out " + shell_word(file.string()));
   return calibration;
 }
 

@@ -15,6 +15,7 @@
 #include "devices/record/append_only.h"
 #include "devices/sequence/sequence_text.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/files.h"
 #include "sim/image_headers/header_text.h"
 
@@ -186,7 +187,7 @@ void refuse_existing(const std::filesystem::path& file) {
       throw is_being_written(working)
           ? InputError(working.string(), "", "another recording is under way to it", "name another file")
           : InputError(working.string(), "", "a recording that was not finished has left it behind",
-                       "run 'insonate-devices recover " + file.string() + "' or remove it");
+                       "remove it, or run: insonate-devices recover " + shell_word(file.string()));
 }
 
 void remove_working_files(const std::filesystem::path& file) {

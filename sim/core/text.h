@@ -15,6 +15,9 @@ std::string_view trimmed(std::string_view text);
 /// Returns the text between single quotation marks: "'depth_mm'".
 std::string in_quotes(std::string_view text);
 
+/// Returns the text as one word of a command that a person copies into a shell: between quotation marks if need be.
+std::string shell_word(std::string_view text);
+
 /// Returns the text without the line ends that wrap a paragraph in a file: each becomes a blank. An empty line, which
 /// separates paragraphs, stays, and the ends are trimmed.
 std::string unwrapped(std::string_view text);

@@ -18,6 +18,12 @@ TEST_CASE("a format is filled in, however long the text becomes") {
   CHECK(formatted("<%s>", longest.c_str()) == "<" + longest + ">");
 }
 
+TEST_CASE("a word of a command can be copied into a shell") {
+  CHECK(shell_word("/data/out-1/results.db") == "/data/out-1/results.db");
+  CHECK(shell_word("/data/Frau Müller's/r.db") == "'/data/Frau Müller'\\''s/r.db'");
+  CHECK(shell_word("") == "''");
+}
+
 TEST_CASE("a number in a sentence has the digits that it needs") {
   CHECK(exact_text(100000) == "100000");
   CHECK(exact_text(4294967295.0) == "4294967295");

@@ -97,7 +97,8 @@ void OpenDialog::draw_field(const Theme& theme, const Rect& field) {
   ImGui::SetNextItemWidth(field.w);
   if (!ready_) ImGui::SetKeyboardFocusHere();
   ImGui::PushID(texts_);  // a field that is active keeps its own text, so another text is another field
-  ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_AutoSelectAll);
+  const bool edited = ImGui::InputText("##path", path_.data(), path_.size(), ImGuiInputTextFlags_AutoSelectAll);
+  if (edited && path().is_absolute() && is_plain_folder(path())) list_ = list_folder(path(), wanted_);
   ImGui::PopID();
   ready_ = ready_ || ImGui::IsItemActive();
   ImGui::PopStyleVar();

@@ -135,6 +135,7 @@ std::string status_of(const Scenario& scenario, const Step& step) {
   return scenario.order == Scenario::Order::free ? "In any order" : "";
 }
 
+constexpr double kNewStep_s = 4;  ///< for so long a new step is marked
 constexpr float kHeight = 66, kTracker = 264, kTime = 112, kHold = 190, kExamGap = 12, kTitleLine = 25,
                 kInstruction = 22;
 
@@ -195,10 +196,9 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   if (!runner) {
     draw_text(upper, theme.heading, colour::kText, makes_views ? "Making views" : "Free practice");
     draw_text({rest.x, upper.y + upper.h, rest.w, theme.px(20)}, theme.text, colour::kMuted,
-              session.loaded_case().scenario ? "Nothing is scored. The Steps button leads to the steps of \"" +
-                                                   session.loaded_case().scenario->title + "\"."
-              : session.holder() == Holder::learner ? "Move the probe with the arrow keys or drag it over the patient."
-                                                    : "The tracker moves the probe. Any arrow key takes it over.");
+              session.holder() == Holder::learner
+                  ? "Nothing is scored. Move the probe with the arrow keys or drag it over the patient."
+                  : "Nothing is scored. The tracker moves the probe; any arrow key takes it over.");
     return;
   }
   const LiveExam& live = runner->live();
@@ -214,8 +214,11 @@ void draw_exam_panel(const Theme& theme, const Rect& panel, const Session& sessi
   const std::string number = std::to_string(live.step + 1) + " / " + std::to_string(scenario.steps.size());
   Rect title{rest.x, upper.y, rest.w, upper.h};
   const Rect plate = title.take_left(text_width(theme.strong, number) + theme.px(16));
-  fill(plate.inset(0, theme.px(1)), colour::kAccentDark, theme.px(4));
-  draw_text(plate, theme.strong, colour::kText, number, Align::centre);
+  // Who looks at the picture alone does not see the title change.
+  const bool is_new = live.step > 0 && !live.finished && step.time_limit_s - live.step_remaining_s < kNewStep_s;
+  if (is_new) outline(panel, colour::kAccent, theme.px(4));
+  fill(plate.inset(0, theme.px(1)), is_new ? colour::kAccent : colour::kAccentDark, theme.px(4));
+  draw_text(plate, theme.strong, is_new ? colour::kBackground : colour::kText, number, Align::centre);
   title.take_left(theme.px(10));
   const auto draw_chip = [&](const std::string& text, ImU32 ink, float widest) {
     const Rect chip = title.take_right(std::min(text_width(theme.small_text, text) + theme.px(20), widest));

@@ -8,6 +8,7 @@
 #include "scenarios/results/database/results_database.h"
 #include "scenarios/results/learner_id.h"
 #include "sim/core/input_error.h"
+#include "sim/core/text.h"
 #include "sim/files/digest.h"
 
 namespace insonate {
@@ -33,8 +34,8 @@ void ResultsDatabase::check_not_taken(const std::string& learner, const std::str
                     "start another exam, or practise");
   if (const auto begun = found("SELECT number, began_ms FROM sitting WHERE learner = ? AND scenario_digest = ?"))
     throw ExamTaken(who, "", "the exam was begun at " + utc_time(begun->second) + " and is not handed in",
-                    "end it where it is being taken, or have what there is of it scored with 'insonate-score hand-in " +
-                        file().string() + "'");
+                    "end it where it is being taken, or have what there is of it scored: insonate-score hand-in " +
+                        shell_word(file().string()));
 }
 
 void ResultsDatabase::begin(Sitting& sitting, std::string_view log) {

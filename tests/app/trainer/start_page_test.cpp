@@ -234,7 +234,8 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   later.scenario = index_of(later, "Knobs and orientation");
   later.choose_learner("L-08");
   CHECK(later.why_not().find("L-08 began this exam on ") == 0);
-  CHECK(later.why_not().find("'insonate-score hand-in " + (folder / "results.db").string() + "'") != std::string::npos);
+  CHECK(later.why_not().find("scored: insonate-score hand-in " + (folder / "results.db").string()) !=
+        std::string::npos);
   later.scenario = index_of(later, "Aorta");
   CHECK(later.why_not() == "");
 }
