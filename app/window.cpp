@@ -218,8 +218,8 @@ private:
       screen_.set_pictures_per_second(rate_.value());
     }
     if (times_)
-      times_->finish(steady_now_s(),
-                     {new_picture, changed, screen_.pixels_drawn(), governor_.quality(), pictures.volume_scale()});
+      times_->finish(steady_now_s(), {new_picture, changed, screen_.pixels_drawn(), governor_.quality(),
+                                      pictures.volumes_drawn(), pictures.volume_scale()});
     if (trainer_.best_frame_due()) trainer_.keep_best_frame();
     trainer_.write_results_if_due();
     if (!options_.state_file.empty() && now_s - state_written_s_ > 0.1) {

@@ -29,14 +29,14 @@ void FrameTimes::finish(double now_s, const Outcome& outcome) {
 }
 
 void FrameTimes::write(const std::filesystem::path& file) const {
-  std::string text = "begin_s,end_s,new_picture,shown,pixels_drawn,quality,volume_scale";
+  std::string text = "begin_s,end_s,new_picture,shown,pixels_drawn,quality,volumes,volume_scale";
   for (const char* part : kFrameParts) text += std::string(",") + part + "_ms";
   text += "\n";
   char cells[160];
   for (const Frame& frame : frames_) {
-    std::snprintf(cells, sizeof cells, "%.6f,%.6f,%d,%d,%ld,%.3f,%d", frame.begin_s, frame.end_s,
+    std::snprintf(cells, sizeof cells, "%.6f,%.6f,%d,%d,%ld,%.3f,%ld,%d", frame.begin_s, frame.end_s,
                   int(frame.outcome.new_picture), int(frame.outcome.shown), frame.outcome.pixels_drawn,
-                  frame.outcome.quality, frame.outcome.volume_scale);
+                  frame.outcome.quality, frame.outcome.volumes, frame.outcome.volume_scale);
     text += cells;
     for (const double part_s : frame.part_s) {
       std::snprintf(cells, sizeof cells, ",%.3f", 1e3 * part_s);

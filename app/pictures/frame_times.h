@@ -28,6 +28,7 @@ public:
     bool shown = false;        ///< the window's picture has changed and was shown
     long pixels_drawn = 0;     ///< of the window
     double quality = 1;        ///< of the ultrasound (QualityGovernor)
+    long volumes = 0;          ///< pictures of the volume view that were drawn so far
     int volume_scale = 1;      ///< pixels of the screen per pixel of the volume view, along each side
   };
   void finish(double now_s, const Outcome& outcome);

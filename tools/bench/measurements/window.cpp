@@ -188,24 +188,30 @@ Table measure_window(const std::vector<WindowSize>& sizes) {
                      "start it on one, as in xvfb-run -s '-screen 0 2560x1440x24' insonate-bench window");
   constexpr std::array kParts{"session", "ultrasound", "slices", "volume", "layout", "window", "present"};
   Table table{{"size", "window_s", "first_picture_s", "pictures_per_s", "first_quartile_ms", "median_ms",
-               "third_quartile_ms", "quality", "rest_core_percent", "rest_frames_per_s"},
+               "third_quartile_ms", "quality", "volumes_per_s", "rest_core_percent", "rest_frames_per_s"},
               {}};
   for (const char* part : kParts) table.columns.push_back(std::string(part) + "_ms");
-  std::printf("%-10s %8s %9s %10s %22s %7s %7s %8s   mean ms of", "window", "window s", "picture s", "pictures/s",
-              "between pictures, ms", "quality", "rest, %", "frames/s");
+  std::printf("%-10s %8s %9s %10s %22s %7s %10s %7s %8s   mean ms of", "window", "window s", "picture s", "pictures/s",
+              "between pictures, ms", "quality", "volumes/s", "rest, %", "frames/s");
   for (const char* part : kParts) std::printf(" %10s", part);
   std::printf("\n");
   const double duration_s = scan_s();
   for (const WindowSize& size : sizes) {
     const WindowRun run = run_trainer(size, duration_s + kLoad_s + kRest_s + 1, false);
     std::vector<double> ends_s, intervals_ms, quality;
-    for (const std::size_t row : settled_pictures(run.frames)) {
+    const std::vector<std::size_t> shown = settled_pictures(run.frames);
+    const auto volumes_until = [&](std::size_t row) { return run.frames.number(row, "volumes"); };
+    const double volumes = shown.empty() ? 0 : volumes_until(shown.back()) - volumes_until(shown.front());
+    for (const std::size_t row : shown) {
       ends_s.push_back(run.frames.number(row, "end_s"));
       quality.push_back(run.frames.number(row, "quality"));
       if (ends_s.size() > 1) intervals_ms.push_back(1e3 * (ends_s.back() - ends_s[ends_s.size() - 2]));
     }
     const Spread interval = spread_of(intervals_ms);
-    const double rate = ends_s.size() < 2 ? 0 : double(ends_s.size() - 1) / (ends_s.back() - ends_s.front());
+    const auto rate_of = [&](double pictures) {
+      return ends_s.size() < 2 ? 0 : pictures / (ends_s.back() - ends_s.front());
+    };
+    const double rate = rate_of(double(ends_s.size()) - 1);
     std::vector<std::string> row{std::to_string(size.width) + "x" + std::to_string(size.height),
                                  cell_of(run.frames.first_s("shown"), 2),
                                  cell_of(run.frames.first_s("new_picture"), 2),
@@ -214,11 +220,12 @@ Table measure_window(const std::vector<WindowSize>& sizes) {
                                  cell_of(interval.median, 1),
                                  cell_of(interval.third_quartile, 1),
                                  cell_of(spread_of(quality).median, 2),
+                                 cell_of(rate_of(volumes), 1),
                                  cell_of(100 * run.rest_core, 1),
                                  cell_of(shown_per_s_at_rest(run), 1)};
-    std::printf("%-10s %8s %9s %10s %6s (%5s to %5s) %7s %7s %8s             ", row[0].c_str(), row[1].c_str(),
+    std::printf("%-10s %8s %9s %10s %6s (%5s to %5s) %7s %10s %7s %8s             ", row[0].c_str(), row[1].c_str(),
                 row[2].c_str(), row[3].c_str(), row[5].c_str(), row[4].c_str(), row[6].c_str(), row[7].c_str(),
-                row[8].c_str(), row[9].c_str());
+                row[8].c_str(), row[9].c_str(), row[10].c_str());
     std::fflush(stdout);
     const Frames in_parts = run_trainer(size, duration_s, true).frames;
     const std::vector<std::size_t> pictures = settled_pictures(in_parts);
