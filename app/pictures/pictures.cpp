@@ -141,14 +141,16 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   constexpr std::size_t kOfPlane = 0, kVolume = 1, kAxes = 2;
   std::array<bool, 5> shown{shows_slice || shows_blend, shows_volume};
   for (std::size_t i = 0; i < axis_slices_.size(); ++i) shown[kAxes + i] = anatomy && sizes.axis_slices[i].x > 0;
+  // The volume has two turns of a round: the probe's way is followed there.
+  constexpr std::array kRound{kOfPlane, kVolume, kAxes, kAxes + 1, kAxes + 2, kVolume};
   const bool next = ++calls_since_turn_ >= effort.calls_per_turn;
-  for (std::size_t i = 0; next && i < shown.size(); ++i) {
-    turn_ = (turn_ + 1) % shown.size();
-    if (shown[turn_]) break;
+  for (std::size_t i = 0; next && i < kRound.size(); ++i) {
+    turn_ = (turn_ + 1) % kRound.size();
+    if (shown[kRound[turn_]]) break;
   }
   if (next) calls_since_turn_ = 0;
-  const auto is_due = [&](std::size_t turn, const gl::Texture* drawn) {
-    return shown[turn] && (effort.calls_per_turn == 0 || (next && turn == turn_) || !drawn);
+  const auto is_due = [&](std::size_t view, const gl::Texture* drawn) {
+    return shown[view] && (effort.calls_per_turn == 0 || (next && view == kRound[turn_]) || !drawn);
   };
 
   view::SliceStyle style;

@@ -40,7 +40,8 @@ struct Effort {
   double quality = 1;
   /// Time for the volume view, which gets coarser while things move to stay within it.
   double volume_ms = std::numeric_limits<double>::infinity();
-  /// The views beside the ultrasound take turns: one of them is drawn per so many calls; 0: all of them in each.
+  /// The views beside the ultrasound take turns: one of them is drawn per so many calls; 0: all of them in each. The
+  /// volume view has two turns of a round.
   int calls_per_turn = 0;
   /// The ultrasound is that of a probe at rest, at once (gl::Simulator::image()), as where a recording stands still.
   bool at_rest = false;

@@ -20,7 +20,7 @@ namespace insonate::view {
 namespace {
 
 // Of the layers, and of the plane and the silhouette, which are edges.
-constexpr int kCoarsest = 4, kCoarsestPlane = 2;
+constexpr int kCoarsest = 5, kCoarsestPlane = 2;
 
 // One sample every half voxel, fewer where pixels are coarser. Smoothing spreads an edge over two voxels, so that four
 // samples lie in it and no steps show.

@@ -46,12 +46,11 @@ public:
 
   /// Returns the picture: RGBA8, alpha 255, row 0 is the top; valid until the next call. The texture is `width` by
   /// `height`. While the inputs change and a full picture would exceed the budget, skin, organs and bone are drawn with
-  /// a half, third or quarter of the pixels along each side. The plane, the face of the cut, the probe and the
-  /// patient's silhouette are sharp as far as the plane's budget allows, with a half of the pixels at least: the
-  /// texture is as large as that, and to be drawn stretched. The silhouette's time is in neither budget: it follows
-  /// from its length alone. Once nothing changes, each call draws as much of the full picture as the budget allows, and
-  /// returns it when it is complete. After that nothing is drawn. Leaves the framebuffer binding and viewport as they
-  /// were.
+  /// a half to a fifth of the pixels along each side. The plane, the face of the cut, the probe and the patient's
+  /// silhouette are sharp as far as the plane's budget allows, with a half of the pixels at least: the texture is as
+  /// large as that, and to be drawn stretched. The silhouette's time is in neither budget: it follows from its length
+  /// alone. Once nothing changes, each call draws as much of the full picture as the budget allows, and returns it when
+  /// it is complete. After that nothing is drawn. Leaves the framebuffer binding and viewport as they were.
   /// @param patient  compared by address: call forget() after changing the object there
   const gl::Texture& render(int width, int height, const PatientTextures& patient, const OrbitCamera& camera,
                             const UltrasoundPlane& plane, const VolumeStyle& style = VolumeStyle(),
@@ -62,8 +61,7 @@ public:
 
   /// Returns how often it has drawn a picture or a part of one.
   long renders() const;
-  /// Returns the scale of skin, organs and bone in the last picture: 1 is the full size, 2 a half, 3 a third, 4 a
-  /// quarter.
+  /// Returns the scale of skin, organs and bone in the last picture: 1 is the full size, 2 a half, and so on to 5.
   int scale() const;
   /// Returns the last measured device time of a picture of full size, ms; 0 before the first measurement.
   double full_picture_ms() const;

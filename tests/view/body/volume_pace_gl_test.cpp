@@ -66,7 +66,7 @@ TEST_CASE("while things move the picture is as coarse as the budget asks, and sh
     return view.render(kWidth, kHeight, *scene.patient, camera, scene.plane, {}, {budget_ms, budget_ms});
   };
   render(kHopeless_ms);
-  CHECK(view.scale() == 4);
+  CHECK(view.scale() == 5);
   camera.orbit(5, 0);
   CHECK(render(kHopeless_ms).width() == kWidth / 2);
   camera.orbit(5, 0);
@@ -108,7 +108,7 @@ TEST_CASE("a coarse picture shows the same as the sharp one") {
       coarse.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style, {kHopeless_ms, kHopeless_ms}));
   const auto full =
       test::read(sharp.render(kWidth, kHeight, *scene.patient, camera, scene.plane, style, {kUnlimited, kUnlimited}));
-  REQUIRE(coarse.scale() == 4);
+  REQUIRE(coarse.scale() == 5);
   const int scale = kWidth / small.width;
   REQUIRE(scale == 2);
   double difference = 0;
@@ -143,14 +143,14 @@ TEST_CASE("while things move the plane and the probe are as sharp as in the full
   draw(moving, {kHopeless_ms, kUnlimited});
   camera.yaw_deg += 1;  // the first picture has measured what the second one costs
   const Image<Rgba8> coarse = draw(moving, {kHopeless_ms, kUnlimited}), full = draw(sharp, {});
-  REQUIRE(moving.scale() == 4);
+  REQUIRE(moving.scale() == 5);
   REQUIRE(coarse.width == kWidth);
   const auto differs = [&](int x, int y, int by) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(coarse.at(x, y)[c] - full.at(x, y)[c]));
     return most > by;
   };
-  // What has an edge in the layers is blurred over four pixels. All else is the same but for rounding: two layers of
+  // What has an edge in the layers is blurred over five pixels. All else is the same but for rounding: two layers of
   // eight bits.
   int plane = 0, plane_off = 0, off = 0;
   for (int y = 0; y < kHeight; ++y)
@@ -165,9 +165,9 @@ TEST_CASE("while things move the plane and the probe are as sharp as in the full
     CHECK(plane > 50);
     CHECK(plane_off == 0);
   }
-  // Through glass the bone's edge is seen, which is some hundred pixels long; without it no seam may be where the
-  // plane, invisible beside its picture, meets the skin.
-  CHECK(off < (style.skin < 1 ? 125 : 40));
+  // Through glass the bone's edge is seen, which is some hundred pixels long and differs in two of the five across it;
+  // without it no seam may be where the plane, invisible beside its picture, meets the skin.
+  CHECK(off < (style.skin < 1 ? 200 : 40));
 }
 
 TEST_CASE("while things move the patient's silhouette is as sharp as in the full picture") {
@@ -192,7 +192,7 @@ TEST_CASE("while things move the patient's silhouette is as sharp as in the full
   draw(moving, {kHopeless_ms, kUnlimited});
   camera.yaw_deg += 1;
   const Image<Rgba8> coarse = draw(moving, {kHopeless_ms, kUnlimited}), full = draw(sharp, {});
-  REQUIRE(moving.scale() == 4);
+  REQUIRE(moving.scale() == 5);
   const auto is_empty = [](const Rgba8& p) { return std::max({p[0], p[1], p[2]}) < 40; };
   int border = 0, off = 0;  // pixels beside the silhouette, and those that it should not cover or should
   for (int y = 1; y < kHeight - 1; ++y)

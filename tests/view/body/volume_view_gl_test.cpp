@@ -134,7 +134,7 @@ TEST_CASE("fragment and compute shaders draw the same, in whole pictures and in 
     };
     const Image<Rgba8> by_fragments = drawn(fragments), by_groups = drawn(groups);
     drawn(parts, {1e-6, 1e-6});
-    CHECK(parts.scale() == 4);
+    CHECK(parts.scale() == 5);
     while (parts.scale() > 1) drawn(parts, {1e-6, 1e-6});
     CHECK(parts.renders() > 5);
     const Image<Rgba8> by_parts = drawn(parts, {1e-6, 1e-6});
