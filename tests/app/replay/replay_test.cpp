@@ -116,6 +116,10 @@ TEST_CASE("a replayed run has its score, its steps, and what was done besides mo
   // The next step begins with the sample that ends the hold.
   CHECK(run.stretches[1].start_s == Approx(run.result->steps[1].start_s));
   CHECK(run.stretches[1].end_s == run.duration_s());
+  // The sample that ends the exam is not measured itself, and shows what the one before did.
+  const RunMoment& last = run.moments[run.index_at(run.result->steps[1].end_s)];
+  REQUIRE(last.view.has_value());
+  CHECK_FALSE(run.moments[run.index_at(last.time_s) + 1].view.has_value());
 
   std::vector<std::string> words;
   for (const RunEvent& event : run.events) words.push_back(event.words);

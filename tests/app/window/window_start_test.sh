@@ -175,8 +175,7 @@ water "$work/scans/of_water/water.mha"
 xdotool key ctrl+o
 await "the dialog is there" is overlay open
 xdotool type "$work/scans"
-xdotool key Return
-await "the folder in it is listed" is_not entry_of_water_x ""
+await "the folder that is typed is listed" is_not entry_of_water_x ""
 pointer_to "$(middle_x entry_of_water)" "$(middle_y entry_of_water)"
 sleep 0.5
 xdotool click --repeat 2 --delay 60 1
