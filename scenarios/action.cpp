@@ -42,6 +42,7 @@ constexpr std::array kKinds{
     KindOfAction{ActionKind::go_to, "go_to", 0, true},
     KindOfAction{ActionKind::go_on, "go_on", 0, false},
     KindOfAction{ActionKind::guide, "guide", 1, false},
+    KindOfAction{ActionKind::patient, "patient", 0, true},
 };
 constexpr bool in_order_of_enumeration() {
   for (std::size_t i = 0; i < kKinds.size(); ++i)

@@ -11,7 +11,8 @@
 
 namespace insonate {
 
-/// What a learner does besides moving the probe. The brackets list the action's arguments: numbers, then a text.
+/// What a learner does besides moving the probe, and what a recording says of itself. The brackets list the action's
+/// arguments: numbers, then a text.
 enum class ActionKind {
   probe,              ///< selects another probe [its name] and sets that probe's own depth and frequency
   depth,              ///< [mm]
@@ -37,7 +38,8 @@ enum class ActionKind {
   hint,       ///< requests the next hint
   go_to,      ///< switches to another step [its name]
   go_on,      ///< declares the step done
-  guide       ///< shows (1) or hides (0) the guide to the step's view; it costs nothing, and the result counts it
+  guide,      ///< shows (1) or hides (0) the guide to the step's view; it costs nothing, and the result counts it
+  patient     ///< says whom a recording shows [Session::patient()]; it changes nothing
 };
 
 /// Returns the action's name in logs and scenarios, such as "depth".

@@ -479,8 +479,9 @@ void Screen::forget_old_toast(const Trainer& trainer) {
                                          trainer.replay(), trainer.session()};
   const auto shown = std::ranges::find_if(pages, [](const void* page) { return page != nullptr; });
   // A score sheet is a page of its own: what was said of the last step does not belong to it.
-  const bool over = trainer.session() && trainer.session()->result();
-  const std::pair page{shown == pages.end() ? nullptr : *shown, over};
+  const Session* session = trainer.session();
+  const std::array state{session && session->result(), session && session->runner()};
+  const std::pair page{shown == pages.end() ? nullptr : *shown, state};
   if (std::exchange(toast_page_, page) != page && !toast_.names_file()) toast_.hide();
 }
 

@@ -223,7 +223,7 @@ private:
   CheckPanel check_panel_;
   Toast toast_;
   /// The page that was shown in the last frame, and whether steps were over.
-  std::pair<const void*, bool> toast_page_{};
+  std::pair<const void*, std::array<bool, 2>> toast_page_{};
   std::future<bool> opening_;  ///< of opened_, by the desktop
   std::filesystem::path opened_;
   /// What the person asked for, the topmost last: help, about, settings, open, leave or volume.

@@ -128,7 +128,7 @@ void Screen::dismiss(Trainer& trainer) {
       if (trainer.session() && trainer.picture_tools().cancel()) break;
       if (trainer.session() && !trainer.author() && trainer.step_controls().asks_again())
         trainer.step_controls().stay();
-      else if (!close_aside(trainer) && !std::exchange(large_, std::nullopt))
+      else if (!ct_panel_.close_menu() && !close_aside(trainer) && !std::exchange(large_, std::nullopt))
         leave(trainer);
       break;
     case Overlay::problem:

@@ -67,7 +67,7 @@ RunRecorder::~RunRecorder() {
 
 void RunRecorder::start(const std::filesystem::path& file, bool exactly) {
   if (std::exchange(running_, true)) return;
-  attempt_ = 0;
+  attempt_ = named_in_ = 0;
   begun_ = has_samples_ = false;
   start_s_ = last_s_ = 0;
   left_out_ = 0;
@@ -90,10 +90,15 @@ void RunRecorder::take(const Session& session) {
   const std::vector<ProbeSample>& samples = session.latest_samples();
   if (samples.empty()) return;
   ActionLog actions = session.latest_actions();
+  std::vector<Action> about;
+  if (std::exchange(named_in_, attempt_) != attempt_) about.push_back({ActionKind::patient, {}, session.patient()});
   if (!std::exchange(has_samples_, true) && !session.latest_begin_attempt()) {
     const std::vector<Action> settings = session.settings();
+    about.insert(about.end(), settings.begin(), settings.end());
+  }
+  if (!about.empty()) {
     std::vector<Action>& first = actions[samples.front().time_s];
-    first.insert(first.begin(), settings.begin(), settings.end());
+    first.insert(first.begin(), about.begin(), about.end());
   }
   enqueue(Samples{samples, std::move(actions)});
 }

@@ -43,7 +43,7 @@ public:
   void take(const Session& session);
   void take(const DrawnPicture& picture);
   /// To be called when another session begins.
-  void begin_anew() { attempt_ = 0; }
+  void begin_anew() { attempt_ = named_in_ = 0; }
 
   /// Throws, once, the error that occurred since the last call. The recording has ended then.
   void check();
@@ -78,7 +78,8 @@ private:
 
   const bool with_pictures_;
   bool running_ = false;
-  int attempt_ = 0;  ///< attempt of the session that the current file records; 0: none yet
+  int attempt_ = 0;   ///< attempt of the session that the current file records; 0: none yet
+  int named_in_ = 0;  ///< the attempt whose file names its patient
   bool begun_ = false, has_samples_ = false;
   double start_s_ = 0, last_s_ = 0;
   std::size_t left_out_ = 0;

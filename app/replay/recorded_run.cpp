@@ -69,6 +69,8 @@ std::string in_words(const Action& action) {
       return "Turned to '" + action.text + "'";
     case ActionKind::go_on:
       return "Went on";
+    case ActionKind::patient:
+      return "";
     case ActionKind::guide:
       return action.numbers[0] != 0 ? "Guide on" : "Guide off";
   }
@@ -137,7 +139,8 @@ std::vector<RunEvent> events_of(const RecordedScan& scan, const std::vector<doub
   std::vector<RunEvent> events;
   const double first_s = scan.samples.front().time_s;
   for (const auto& [time_s, actions] : parse_action_log(scan.recording.actions, scan.recording.file))
-    for (const Action& action : actions) events.push_back({time_s - first_s, false, in_words(action)});
+    for (const Action& action : actions)
+      if (action.kind != ActionKind::patient) events.push_back({time_s - first_s, false, in_words(action)});
   for (std::size_t i = 0; i < event_markers_s.size(); ++i)
     events.push_back({event_markers_s[i], true, "Mark " + std::to_string(i + 1)});
   std::stable_sort(events.begin(), events.end(),

@@ -40,11 +40,26 @@ KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& 
   return run;
 }
 
+std::string patient_of(const RecordedScan& scan) {
+  for (const auto& [time_s, actions] : parse_action_log(scan.recording.actions, scan.recording.file))
+    for (const Action& action : actions)
+      if (action.kind == ActionKind::patient) return action.text;
+  return "";
+}
+
 bool has_any(const std::filesystem::path& log, std::int64_t attempt) {
   return !log.empty() || attempt > 0;
 }
 
 }  // namespace
+
+std::string recorded_patient(const std::filesystem::path& log) {
+  try {
+    return patient_of(read_log(log));
+  } catch (const InputError&) {
+    return "";
+  }
+}
 
 LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, const LoadProgress& progress) {
   const KeptRun run = kept_run(source.log, source.database, source.attempt);
@@ -60,8 +75,14 @@ LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, con
     case_source.ct = run.patient;
     case_source.kept = run.scenario;
   }
+  LoadedCase patient = load_case(case_source, progress);
+  if (const std::string recorded = patient_of(run.scan); !recorded.empty() && recorded != patient_words(patient))
+    throw InputError(run.scan.recording.file, "",
+                     "it was recorded on '" + recorded + "', not on '" + patient_words(patient) + "'",
+                     "open that patient first, and then this recording (Ctrl O)");
+  if (source.without_steps && !run.scenario) patient.scenario.reset();
   LoadedReplay loaded;
-  loaded.loaded_case = std::make_shared<const LoadedCase>(load_case(case_source, progress));
+  loaded.loaded_case = std::make_shared<const LoadedCase>(std::move(patient));
   const auto play = [&](const KeptRun& kept, const std::string& what) {
     return play_through(loaded.loaded_case, kept.scan, [&](double share) { progress(what, share); });
   };

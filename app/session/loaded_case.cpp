@@ -47,6 +47,13 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
 
 }  // namespace
 
+std::string patient_words(const std::string& name, const std::optional<Scenario>& scenario) {
+  std::string words = name;
+  if (scenario)
+    for (const auto& [option, value] : scenario->phantom_options) words += ", " + option + " " + value;
+  return words.substr(0, Action::kLongestText);  // as a log stores it
+}
+
 std::optional<Scenario> read_exam(const CaseSource& source) {
   if (source.kept) return source.kept;
   if (!source.scenario.empty()) return read_scenario(source.scenario, source.seed);

@@ -36,6 +36,13 @@ struct LoadedCase {
   TrackerContext surroundings;       ///< where the body is, and where a probe starts: on the belly, transverse
 };
 
+/// Returns the patient in words, with what a scenario has changed on it: "Abdomen phantom, aorta_diameter_mm 45".
+/// Recordings name their patient so.
+std::string patient_words(const std::string& name, const std::optional<Scenario>& scenario);
+inline std::string patient_words(const LoadedCase& loaded_case) {
+  return patient_words(loaded_case.subject.name, loaded_case.scenario);
+}
+
 /// Reads the exam that `source` names; empty for free practice. Throws InputError.
 std::optional<Scenario> read_exam(const CaseSource& source);
 

@@ -107,6 +107,32 @@ std::filesystem::path StartPage::expert() const {
   return known == expert_of_.end() ? std::filesystem::path() : known->second;
 }
 
+/// Takes the patient that a recording names, if the page offers it, and the steps that were chosen for it.
+void StartPage::take_patient_of(const OfferedRun& chosen, Options& options) const {
+  const std::string recorded = recorded_patient(chosen.replay.log);
+  const std::string changes = recorded.substr(std::min(recorded.find(','), recorded.size()));
+  if (run_scenario) {
+    const OfferedScenario& steps = scenarios_[*run_scenario];
+    options.scenario = steps.file;
+    for (const OfferedVariant& each : steps.variants)
+      if (patient_words("", read_scenario(steps.file, each.seed)) == changes) options.seed = each.seed;
+    return;
+  }
+  options.replay.without_steps = true;
+  const auto is_recorded = [&](const OfferedPatient& offered) {
+    return path_of(offered.source).empty() ? offered.options == changes : offered.name == recorded;
+  };
+  auto found = std::find_if(patients_.begin(), patients_.end(), [&](const OfferedPatient& offered) {
+    return !path_of(offered.source).empty() && is_recorded(offered);
+  });
+  if (found == patients_.end()) found = std::find_if(patients_.begin(), patients_.end(), is_recorded);
+  if (recorded.empty() || found == patients_.end()) return;
+  options.case_folder = found->source.case_folder;
+  options.ct = found->source.ct;
+  options.scenario = found->source.scenario;
+  if (!found->source.scenario.empty()) options.seed = found->source.seed;
+}
+
 Beginning StartPage::chosen() const {
   Beginning chosen{options_, false, false};
   Options& options = chosen.options;
@@ -154,7 +180,7 @@ Beginning StartPage::chosen() const {
       if (chosen_run.replay.attempt > 0) options.results = chosen_run.replay.database;
       options.scenario = chosen_run.scenario;
       if (!chosen_run.scenario.empty()) options.seed = chosen_run.seed;
-      if (chosen_run.needs_scenario() && run_scenario) options.scenario = scenarios_[*run_scenario].file;
+      if (chosen_run.needs_scenario()) take_patient_of(chosen_run, options);
       if (beside_expert) options.replay.beside_log = expert();
       break;
     }

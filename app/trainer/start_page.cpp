@@ -209,7 +209,7 @@ void StartPage::read_patients() {
     if (variants.empty()) variants.emplace_back();
     for (const OfferedVariant& drawn_by : variants) {
       const Scenario drawn = read_scenario(offered.file, drawn_by.seed);
-      OfferedPatient made{"", "Built-in patient", CaseSource{}, fs::path()};
+      OfferedPatient made{"", "Built-in patient", CaseSource{}, patient_words("", drawn), fs::path()};
       std::string finding = drawn.variant;
       for (const auto& [option, value] : drawn.phantom_options)
         if (finding.empty()) finding = in_words(option);
@@ -238,7 +238,8 @@ void StartPage::list_cases() {
   std::vector<OfferedPatient> cases;
   for (const fs::path& folder : {fs::current_path(error), case_folder_})
     for (const fs::path& found : cases_in(folder)) {
-      OfferedPatient offered{"", "Case " + found.filename().string() + " in " + folder.string(), CaseSource{}, folder};
+      OfferedPatient offered{"", "Case " + found.filename().string() + " in " + folder.string(), CaseSource{}, "",
+                             folder};
       offered.source.case_folder = found;
       cases.push_back(std::move(offered));
     }
@@ -438,7 +439,8 @@ void StartPage::offer_again(const std::vector<fs::path>& opened, const CaseSourc
 void StartPage::offer_patient(const fs::path& path, Material material) {
   const bool is_ct = material == Material::ct;
   const std::string name = path.filename().string();
-  OfferedPatient offered{is_ct ? name : name_of_case(path), is_ct ? "CT" : "Case " + name, CaseSource{}, fs::path()};
+  OfferedPatient offered{is_ct ? name : name_of_case(path), is_ct ? "CT" : "Case " + name, CaseSource{}, "",
+                         fs::path()};
   (is_ct ? offered.source.ct : offered.source.case_folder) = path;
   offered.about += " in " + path.parent_path().string();
   offered.opened = true;

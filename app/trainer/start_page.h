@@ -42,6 +42,7 @@ struct OfferedScenario {
 struct OfferedPatient {
   std::string name, about;
   CaseSource source;
+  std::string options{};              ///< of a built-in patient, as patient_words() adds them to its name
   std::filesystem::path listed_in{};  ///< the folder whose cases the page lists; empty for other patients
   bool opened = false;                ///< from a file that the person chose
 };
@@ -177,6 +178,7 @@ public:
 
 private:
   void read_scenarios();
+  void take_patient_of(const OfferedRun& chosen, Options& options) const;
   void read_patients();
   void list_cases();
   void read_runs();

@@ -315,8 +315,10 @@ void Trainer::update(Mode& mode, double now_s) {
   mode.best_frames.see(session);
   session.advance(now_s - mode.behind_s);
   if (step && session.runner() && !session.result() && session.runner()->live().step != *step)
-    if (std::string said = how_step_ended(*session.runner(), *step); !said.empty())
+    if (std::string said = how_step_ended(*session.runner(), *step); !said.empty()) {
+      if (session.machine().frozen) said += " The picture is still frozen: Space makes it live.";
       notices_.push_back({std::move(said), {}});
+    }
   mode.tools.see(session);
   mode.controls.see(session);
   mode.undo.watch(session);

@@ -216,9 +216,9 @@ Calibration read_calibration(const std::filesystem::path& file) {
 Calibration read_complete_calibration(const std::filesystem::path& file) {
   Calibration calibration = read_calibration(file);
   if (const std::string missing = why_incomplete(calibration); !missing.empty())
-    throw InputError(
-        file.string(), "", "the step '" + missing + "' has not been made",
-        "make it: insonate-devices calibrate " + missing + " --tracker URI --out " + shell_word(file.string()));
+    throw InputError(file.string(), "", "the step '" + missing + "' has not been made",
+                     "run insonate-devices calibrate " + missing + " --tracker URI --out " + shell_word(file.string()) +
+                         " to make it");
   return calibration;
 }
 

@@ -187,7 +187,7 @@ void refuse_existing(const std::filesystem::path& file) {
       throw is_being_written(working)
           ? InputError(working.string(), "", "another recording is under way to it", "name another file")
           : InputError(working.string(), "", "a recording that was not finished has left it behind",
-                       "remove it, or run: insonate-devices recover " + shell_word(file.string()));
+                       "run insonate-devices recover " + shell_word(file.string()) + " or remove it");
 }
 
 void remove_working_files(const std::filesystem::path& file) {

@@ -55,7 +55,7 @@ SequenceRecorder::SequenceRecorder(std::filesystem::path file, int width, int he
                      "name it as in 'scan.igs.mha'");
   refuse_existing(file_);
   const std::string when_full =
-      "make room on the disk, and keep what is whole: insonate-devices recover " + shell_word(file_.string());
+      "make room on the disk and run insonate-devices recover " + shell_word(file_.string()) + " to keep what is whole";
   text_ = std::make_unique<AppendOnlyFile>(working_file(file_), when_full);
   text_->append(working_head(width_, height_));
   if (width_ > 0 && height_ > 0) pictures_ = std::make_unique<Pictures>(images_file(file_), when_full);

@@ -73,7 +73,7 @@ const std::vector<Key> kFiles{
 const std::vector<Key> kSweep{{"T, U", "begin and end a sweep; see the volume of its pictures"}};
 const std::vector<Key> kWindow{
     {"F1, F3, F11", "this help; settings; full screen"},
-    {"Ctrl Q", "end the program"},
+    {"Ctrl Q", "end the program; an exam: asks first, then hands it in"},
 };
 
 std::vector<Key> keys_of(std::initializer_list<std::vector<Key>> parts) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/panels/layout.h"
 #include "app/panels/widgets/theme.h"
@@ -25,6 +26,9 @@ public:
   /// @param places    receives the buttons' rectangles
   bool draw(const Theme& theme, View view, const Rect& panel, Pictures& pictures, CtLook& look, const Guiding* guiding,
             std::map<std::string, Rect>& places);
+
+  /// Closes the open menu. Returns whether there was one.
+  bool close_menu() { return std::exchange(menu_, std::nullopt).has_value(); }
 
 private:
   Rect draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look,

@@ -34,8 +34,8 @@ void ResultsDatabase::check_not_taken(const std::string& learner, const std::str
                     "start another exam, or practise");
   if (const auto begun = found("SELECT number, began_ms FROM sitting WHERE learner = ? AND scenario_digest = ?"))
     throw ExamTaken(who, "", "the exam was begun at " + utc_time(begun->second) + " and is not handed in",
-                    "end it where it is being taken, or have what there is of it scored: insonate-score hand-in " +
-                        shell_word(file().string()));
+                    "end it where it is being taken, or run insonate-score hand-in " + shell_word(file().string()) +
+                        " to have what there is of it scored");
 }
 
 void ResultsDatabase::begin(Sitting& sitting, std::string_view log) {

@@ -10,6 +10,8 @@
 #include "scenarios/results/database/results_database.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
+#include "sim/files/files.h"
+#include "sim/volume/case.h"
 #include "tests/app/session/tiny_session.h"
 #include "tests/scenarios/results/made_attempt.h"
 
@@ -309,6 +311,33 @@ TEST_CASE("a replay plays, pauses, steps by samples, and keeps to its ends") {
   replay.advance(200);
   CHECK(replay.time_s() == end_s);
   CHECK_FALSE(replay.playing());
+}
+
+TEST_CASE("a recording of another patient is refused, and without steps nothing is measured") {
+  const TemporaryFolder folder;
+  const auto loaded_case = tiny_loaded_case();
+  Case subject = loaded_case->subject;
+  for (const char* name : {"this", "other"}) {
+    subject.name = name;
+    write_case(folder.path / name, subject);
+  }
+  const RecordedScan taken = scan(3);
+  const ActionLog actions{{taken.samples.front().time_s, {Action{ActionKind::patient, {}, "this"}}}};
+  write_file(folder.path / "run.igs.mha", write_sequence(taken.samples, to_texts(actions)));
+  ReplaySource source;
+  source.log = folder.path / "run.igs.mha";
+  CHECK(recorded_patient(source.log) == "this");
+  CaseSource patient;
+  patient.scenario = folder.path / "exam.toml";
+  write_file(patient.scenario, loaded_case->scenario->text);
+  const auto load = [&](const char* name) {
+    patient.case_folder = folder.path / name;
+    return load_replay(source, patient, [](std::string_view, double) {});
+  };
+  CHECK_THROWS_WITH(load("other"), Catch::Contains("it was recorded on 'this', not on 'other'"));
+  CHECK(load("this").replay->run().result.has_value());
+  source.without_steps = true;
+  CHECK_FALSE(load("this").replay->run().result.has_value());
 }
 
 // Its actions are read before its poses: when a pose is refused, they have to be given back once (tools/check-braces).

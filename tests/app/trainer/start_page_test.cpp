@@ -6,6 +6,8 @@
 #include <chrono>
 #include <thread>
 
+#include "devices/sequence/sequence.h"
+#include "scenarios/action.h"
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
 #include "tests/scenarios/results/made_attempt.h"
@@ -112,6 +114,29 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   later.offer_again(opened, chosen_before);
   CHECK(later.opened_patients() == opened);  // and not twice
   CHECK(later.patients()[later.patient].name == "water.mha");
+
+  INFO("a recording that names its patient is replayed on that patient");
+  const auto replay_of = [&](const std::string& recorded) {
+    std::vector<ProbeSample> samples(2);
+    samples[1].time_s = 1;
+    const ActionLog actions{{0.0, {Action{ActionKind::patient, {}, recorded}}}};
+    write_file(folder / "run.igs.mha", write_sequence(samples, to_texts(actions)));
+    page.add(folder / "run.igs.mha");
+    page.run_scenario.reset();
+    return chosen(Task::replay).options;
+  };
+  CHECK(replay_of("water.mha").ct == folder / "water.mha");
+  CHECK(replay_of("water.mha").replay.without_steps);
+  const OfferedScenario& aorta = page.scenarios()[index_of(page, "Aorta")];
+  for (const OfferedVariant& each : aorta.variants) {
+    const std::string changed = patient_words("Abdomen phantom", read_scenario(aorta.file, each.seed));
+    const std::string of_page =
+        patient_words("Abdomen phantom", read_scenario(replay_of(changed).scenario, *replay_of(changed).seed));
+    CHECK(of_page == changed);
+    page.run_scenario = index_of(page, "Aorta");
+    CHECK(chosen(Task::replay).options.seed == each.seed);
+  }
+  page.run_scenario.reset();
 
   INFO("without a database there are no learners to look at");
   CHECK(page.tasks().size() == kTasks - 1);

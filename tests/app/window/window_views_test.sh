@@ -20,6 +20,13 @@ xdotool key F5
 await "the slice in the plane comes back" is_not slice_x ""
 is axial_x "" || fail "the axial slice stays"
 
+echo "Escape closes the menu of the CT's grey levels, and nothing else"
+click_on grey_slice
+await "the menu is open" is_not ct_menu_x ""
+xdotool key Escape
+await "the menu is closed" is ct_menu_x ""
+is activity practice || fail "Escape has left the scan"
+
 echo "a double click makes a view large, and another one takes it back"
 xdotool mousemove "$(middle_x slice)" "$(middle_y slice)" click --repeat 2 --delay 80 1
 await "the other views go" is space_x ""

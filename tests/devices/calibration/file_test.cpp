@@ -121,9 +121,8 @@ TEST_CASE("a calibration that is not as it was written is refused in a sentence"
 TEST_CASE("a calibration that was only begun is refused where a complete one is needed, with the step to make") {
   const TemporaryFolder folder;
   const auto file = folder.put("begun.toml", "[tracker]\nkind = 'hydra'\n");
-  CHECK_THROWS_WITH(
-      read_complete_calibration(file),
-      Contains("begun.toml: the step 'face' has not been made; make it: 'insonate-devices calibrate face"));
+  CHECK_THROWS_WITH(read_complete_calibration(file),
+                    Contains("begun.toml: the step 'face' has not been made; run insonate-devices calibrate face"));
   write_calibration(folder.path / "lab.toml", complete());
   CHECK(read_complete_calibration(folder.path / "lab.toml").tip);
 }
