@@ -79,7 +79,7 @@ LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, con
   if (const std::string recorded = patient_of(run.scan); !recorded.empty() && recorded != patient_words(patient))
     throw InputError(run.scan.recording.file, "",
                      "it was recorded on '" + recorded + "', not on '" + patient_words(patient) + "'",
-                     "open that patient first, and then this recording (Ctrl O)");
+                     "open that patient first, then this recording");
   if (source.without_steps && !run.scenario) patient.scenario.reset();
   LoadedReplay loaded;
   loaded.loaded_case = std::make_shared<const LoadedCase>(std::move(patient));

@@ -59,7 +59,7 @@ void draw_top(const Theme& theme, const Rect& panel, const Replay& replay, const
   if (!scenario) {
     draw_text(upper, theme.heading, colour::kText, "A scan without an exam");
     draw_text(lower, theme.text, colour::kMuted,
-              "With --scenario its steps and the distance to their views are shown.");
+              "Nothing is measured. With steps, which the start page offers, the distance to their views is shown.");
     return;
   }
   const Step& step = scenario->steps[number];
