@@ -478,7 +478,8 @@ void Screen::forget_old_toast(const Trainer& trainer) {
   const std::array<const void*, 5> pages{trainer.start_page(), trainer.learners_page(), trainer.check_page(),
                                          trainer.replay(), trainer.session()};
   const auto shown = std::ranges::find_if(pages, [](const void* page) { return page != nullptr; });
-  // A score sheet is a page of its own: what was said of the last step does not belong to it.
+  // A score sheet is a page of its own, and so is practice without steps: what was said of the last step does not
+  // belong to them.
   const Session* session = trainer.session();
   const std::array state{session && session->result(), session && session->runner()};
   const std::pair page{shown == pages.end() ? nullptr : *shown, state};

@@ -222,7 +222,7 @@ private:
   LearnersPanel learners_panel_;
   CheckPanel check_panel_;
   Toast toast_;
-  /// The page that was shown in the last frame, and whether steps were over.
+  /// The page that was shown in the last frame; whether its steps were over, and whether it had any.
   std::pair<const void*, std::array<bool, 2>> toast_page_{};
   std::future<bool> opening_;  ///< of opened_, by the desktop
   std::filesystem::path opened_;

@@ -137,7 +137,7 @@ public:
   void slices_to_cross_hair();
   /// Returns the screen's pixels per pixel of volume(), along each side.
   int volume_scale() const { return volume_view_.scale(); }
-  /// Returns the number of pictures of the volume view so far.
+  /// Returns the number of pictures of the volume view so far, or of parts of one while nothing moves.
   long volumes_drawn() const { return volume_view_.renders(); }
   const ImageGeometry& geometry() const { return simulator_.geometry(); }
   /// Returns the share of the pictures' width that the fan covers where it is widest, 0 to 1.

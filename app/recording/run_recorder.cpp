@@ -91,7 +91,8 @@ void RunRecorder::take(const Session& session) {
   if (samples.empty()) return;
   ActionLog actions = session.latest_actions();
   std::vector<Action> about;
-  if (std::exchange(named_in_, attempt_) != attempt_) about.push_back({ActionKind::patient, {}, session.patient()});
+  if (std::exchange(named_in_, attempt_) != attempt_ && !session.patient().empty())
+    about.push_back({ActionKind::patient, {}, session.patient()});
   if (!std::exchange(has_samples_, true) && !session.latest_begin_attempt()) {
     const std::vector<Action> settings = session.settings();
     about.insert(about.end(), settings.begin(), settings.end());

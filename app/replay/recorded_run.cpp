@@ -99,8 +99,8 @@ public:
         moment.on_skin = live.on_skin;
         moment.within_tolerance = live.within_tolerance;
         moment.view = live.view;
-      } else if (!std::exchange(finished_, true) && !run_.moments.empty()) {
-        // The sample that ends the exam is not measured; it follows the one before within a frame.
+      } else if (!std::exchange(finished_, true) && sample.status == PoseStatus::ok && !run_.moments.empty()) {
+        // A sample that ends the exam by its time is not measured itself.
         const RunMoment& before = run_.moments.back();
         moment.on_skin = before.on_skin;
         moment.within_tolerance = before.within_tolerance;

@@ -76,9 +76,10 @@ LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, con
     case_source.kept = run.scenario;
   }
   LoadedCase patient = load_case(case_source, progress);
-  if (const std::string recorded = patient_of(run.scan); !recorded.empty() && recorded != patient_words(patient))
+  if (const std::string recorded = patient_of(run.scan);
+      !run.scenario && !recorded.empty() && recorded != patient.patient)
     throw InputError(run.scan.recording.file, "",
-                     "it was recorded on '" + recorded + "', not on '" + patient_words(patient) + "'",
+                     "it was recorded on '" + recorded + "', not on '" + patient.patient + "'",
                      "open that patient first, then this recording");
   if (source.without_steps && !run.scenario) patient.scenario.reset();
   LoadedReplay loaded;

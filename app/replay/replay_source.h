@@ -30,8 +30,8 @@ struct LoadedReplay {
 };
 
 /// Loads the runs, the patient and the scenario. An attempt brings its own scenario, variant and patient, which replace
-/// those that `loaded_case` names. Throws InputError, also for a log that names another patient, and if the two runs
-/// belong to different scenarios: their steps could not be aligned.
+/// those that `loaded_case` names. Throws InputError, also if `log` names another patient than `loaded_case`, and if
+/// the two runs belong to different scenarios: their steps could not be aligned.
 LoadedReplay load_replay(const ReplaySource& source, CaseSource loaded_case, const LoadProgress& progress);
 
 }  // namespace insonate

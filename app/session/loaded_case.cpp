@@ -47,10 +47,9 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
 
 }  // namespace
 
-std::string patient_words(const std::string& name, const std::optional<Scenario>& scenario) {
+std::string patient_words(const std::string& name, const Scenario& scenario) {
   std::string words = name;
-  if (scenario)
-    for (const auto& [option, value] : scenario->phantom_options) words += ", " + option + " " + value;
+  for (const auto& [option, value] : scenario.phantom_options) words += ", " + option + " " + value;
   return words.substr(0, Action::kLongestText);  // as a log stores it
 }
 
@@ -79,6 +78,9 @@ LoadedCase load_case(const CaseSource& source, const LoadProgress& progress) {
     loaded_case.subject =
         load_case(*loaded_case.scenario, assets, cache_folder(), [&](double share) { progress(what, share); });
   }
+  loaded_case.patient = source.ct.empty() && source.case_folder.empty()
+                            ? patient_words(loaded_case.subject.name, *loaded_case.scenario)
+                            : loaded_case.subject.name.substr(0, Action::kLongestText);
   if (loaded_case.scenario) check_against_case(*loaded_case.scenario, loaded_case.subject);
 
   progress("Working out what the sound will meet", 0);

@@ -30,18 +30,16 @@ struct CaseSource {
 /// A patient ready to be scanned, and the exam if there is one. Sessions and their runners keep references to it.
 struct LoadedCase {
   Case subject;
+  std::string patient;  ///< in words, as recordings name it: patient_words(), or the name of a CT or case; may be empty
   TissueTable tissues;
   AcousticVolume acoustic;
   std::optional<Scenario> scenario;  ///< empty: free practice
   TrackerContext surroundings;       ///< where the body is, and where a probe starts: on the belly, transverse
 };
 
-/// Returns the patient in words, with what a scenario has changed on it: "Abdomen phantom, aorta_diameter_mm 45".
-/// Recordings name their patient so.
-std::string patient_words(const std::string& name, const std::optional<Scenario>& scenario);
-inline std::string patient_words(const LoadedCase& loaded_case) {
-  return patient_words(loaded_case.subject.name, loaded_case.scenario);
-}
+/// Returns a built-in patient in words, with what a scenario has changed on it: "Abdomen phantom, aorta_diameter_mm
+/// 45".
+std::string patient_words(const std::string& name, const Scenario& scenario);
 
 /// Reads the exam that `source` names; empty for free practice. Throws InputError.
 std::optional<Scenario> read_exam(const CaseSource& source);

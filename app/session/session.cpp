@@ -143,6 +143,11 @@ void Session::begin_attempt() {
   log_actions_.clear();
   if (const Recording* recording = source().recording())
     log_actions_ = parse_action_log(recording->actions, recording->file);
+  // Not the learner's: a log with it alone has no actions.
+  for (auto at = log_actions_.begin(); at != log_actions_.end();) {
+    std::erase_if(at->second, [](const Action& action) { return action.kind == ActionKind::patient; });
+    at = at->second.empty() ? log_actions_.erase(at) : std::next(at);
+  }
 }
 
 void Session::start_over(Activity activity) {

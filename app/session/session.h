@@ -84,8 +84,8 @@ public:
   void hand_in();
   /// Returns a counter, from 1, of how often the exam or practice has started from its beginning.
   int attempt() const { return attempt_; }
-  /// Returns the patient in words (patient_words()).
-  std::string patient() const { return patient_words(loaded_case()); }
+  /// Returns the patient in words (LoadedCase::patient).
+  const std::string& patient() const { return loaded_case().patient; }
   /// Returns the exam's runner; nullptr in free practice.
   const Runner* runner() const { return runner_.get(); }
   /// Returns the samples that the runner was fed.

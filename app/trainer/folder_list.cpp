@@ -82,7 +82,8 @@ std::string kind_in_words(Material material, Wanted wanted) {
 /// The file's voxels are not read for a list, so its name decides.
 bool is_named_as_labels(const fs::path& file) {
   const std::string name = lower(file.filename().string());
-  return name.find("label") != std::string::npos || name.find("seg") != std::string::npos;
+  return name.find("labels") != std::string::npos || name.find("segmentation") != std::string::npos ||
+         name.find("_seg.") != std::string::npos;
 }
 
 std::int64_t changed_s(const fs::path& path) {

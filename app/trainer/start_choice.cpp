@@ -107,30 +107,36 @@ std::filesystem::path StartPage::expert() const {
   return known == expert_of_.end() ? std::filesystem::path() : known->second;
 }
 
-/// Takes the patient that a recording names, if the page offers it, and the steps that were chosen for it.
+/// Takes the patient that a recording names, if the page offers it, and the steps that were chosen for it. A file that
+/// cannot be read any more is refused when it is loaded.
 void StartPage::take_patient_of(const OfferedRun& chosen, Options& options) const {
   const std::string recorded = recorded_patient(chosen.replay.log);
   const std::string changes = recorded.substr(std::min(recorded.find(','), recorded.size()));
+  options.replay.without_steps = !run_scenario;
+  const auto found = std::find_if(patients_.begin(), patients_.end(), [&](const OfferedPatient& offered) {
+    return !path_of(offered.source).empty() && offered.name == recorded;
+  });
+  if (found != patients_.end()) {
+    options.case_folder = found->source.case_folder;
+    options.ct = found->source.ct;
+  }
   if (run_scenario) {
     const OfferedScenario& steps = scenarios_[*run_scenario];
     options.scenario = steps.file;
-    for (const OfferedVariant& each : steps.variants)
-      if (patient_words("", read_scenario(steps.file, each.seed)) == changes) options.seed = each.seed;
+    try {
+      for (const OfferedVariant& each : steps.variants)
+        if (patient_words("", read_scenario(steps.file, each.seed)) == changes) options.seed = each.seed;
+    } catch (const InputError&) {
+    }
     return;
   }
-  options.replay.without_steps = true;
-  const auto is_recorded = [&](const OfferedPatient& offered) {
-    return path_of(offered.source).empty() ? offered.options == changes : offered.name == recorded;
-  };
-  auto found = std::find_if(patients_.begin(), patients_.end(), [&](const OfferedPatient& offered) {
-    return !path_of(offered.source).empty() && is_recorded(offered);
+  if (found != patients_.end() || recorded.empty()) return;
+  const auto built_in = std::find_if(patients_.begin(), patients_.end(), [&](const OfferedPatient& offered) {
+    return path_of(offered.source).empty() && offered.options == changes;
   });
-  if (found == patients_.end()) found = std::find_if(patients_.begin(), patients_.end(), is_recorded);
-  if (recorded.empty() || found == patients_.end()) return;
-  options.case_folder = found->source.case_folder;
-  options.ct = found->source.ct;
-  options.scenario = found->source.scenario;
-  if (!found->source.scenario.empty()) options.seed = found->source.seed;
+  if (built_in == patients_.end()) return;
+  options.scenario = built_in->source.scenario;
+  options.seed = built_in->source.seed;
 }
 
 Beginning StartPage::chosen() const {

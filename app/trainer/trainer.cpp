@@ -199,7 +199,8 @@ void Trainer::take_over_loaded() {
   }
   if (loads) attempt([&] { begin(std::move(patient), requested_); });
   give_up_choice();
-  if (StartPage* page = start_page(); page && !loads && requested_.source.scenario.empty()) {
+  if (StartPage* page = start_page();
+      page && !loads && requested_.source.scenario.empty() && !requested_.replay.any()) {
     page->withdraw(requested_.source);
     forget_patient(requested_.source);
   }

@@ -46,7 +46,7 @@ Case open_case(const fs::path& path) {
   std::error_code error;
   if (fs::exists(path / "case.toml", error)) return read_case(path);
   Case subject;
-  subject.name = path.filename().string();
+  subject.name = (path.has_filename() ? path : path.parent_path()).filename().string();
   subject.ct = read_ct(path);
   const glm::dvec3 spacing = subject.ct.grid.spacing;
   if (std::max({spacing.x, spacing.y, spacing.z}) > kInsonatedVoxel_mm)

@@ -38,6 +38,7 @@ std::vector<Action> one_of_each() {
           {ActionKind::hint},
           {ActionKind::go_to, {}, "aorta"},
           {ActionKind::guide, {1}},
+          {ActionKind::patient, {}, "Abdomen phantom, aorta_diameter_mm 45"},
           {ActionKind::go_on}};
 }
 

@@ -178,7 +178,7 @@ void StartPanel::draw_trackers(const Theme& theme, Rect panel, StartPage& page, 
       ImGui::GetWindowDrawList()->AddCircle(middle, theme.px(5), colour::kMuted, 20, theme.px(1.5f));
     const char* words = tracker.checked                    ? words_of(tracker.state)
                         : tracker.uri.starts_with("igtl:") ? "on the network"
-                                                           : "not a device";
+                                                           : "not looked for";
     draw_text(line.take_right(text_width(theme.small_text, words) + 1), theme.small_text,
               current ? colour::kText : colour::kMuted, words, Align::right);
     line.take_right(theme.px(8));

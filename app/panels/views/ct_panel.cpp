@@ -174,6 +174,7 @@ void draw_blend_controls(const Theme& theme, const Rect& strip, Pictures& pictur
 
 void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view, CtLook& look,
                         std::map<std::string, Rect>& places) {
+  shown_in_ = ImGui::GetFrameCount();
   const float row = theme.px(26);
   const bool axis = axis_of(view).has_value();
   Rect menu{button_place.x, 0, theme.px(196), row * float(kWindowPresets.size() + 1 + axis) + theme.px(8)};

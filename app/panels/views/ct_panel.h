@@ -27,8 +27,8 @@ public:
   bool draw(const Theme& theme, View view, const Rect& panel, Pictures& pictures, CtLook& look, const Guiding* guiding,
             std::map<std::string, Rect>& places);
 
-  /// Closes the open menu. Returns whether there was one.
-  bool close_menu() { return std::exchange(menu_, std::nullopt).has_value(); }
+  /// Closes the menu. Returns whether one was shown.
+  bool close_menu() { return std::exchange(menu_, std::nullopt) && shown_in_ >= ImGui::GetFrameCount() - 1; }
 
 private:
   Rect draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look,
@@ -36,6 +36,7 @@ private:
   void draw_menu(const Theme& theme, const Rect& button, View view, CtLook& look, std::map<std::string, Rect>& places);
 
   std::optional<View> menu_;         ///< whose menu is open
+  int shown_in_ = -1;                ///< the last of ImGui's frames with a menu; its view may be hidden since
   std::optional<WindowLevel> held_;  ///< the grey scale when the drag began
   float wheel_ = 0;                  ///< turned, less than a slice
 };

@@ -32,6 +32,7 @@ std::vector<ProbeSample> scan() {
 
 std::shared_ptr<const LoadedCase> tiny_loaded_case() {
   auto loaded_case = std::make_shared<LoadedCase>();
+  loaded_case->patient = "Tiny";
   loaded_case->subject = tiny_case();
   loaded_case->tissues = tiny_tissues();
   loaded_case->scenario = parse_scenario(kTinyScenario, "exam.toml");

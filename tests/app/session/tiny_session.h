@@ -17,6 +17,7 @@ namespace insonate {
 inline std::shared_ptr<const LoadedCase> tiny_loaded_case(bool with_exam = true) {
   auto loaded_case = std::make_shared<LoadedCase>();
   loaded_case->subject = tiny_case();
+  loaded_case->patient = "Tiny";
   loaded_case->tissues = tiny_tissues();
   if (with_exam) loaded_case->scenario = parse_scenario(kTinyScenario, "exam.toml");
   loaded_case->surroundings.start.translation = {0, 0, -40};

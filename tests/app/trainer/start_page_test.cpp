@@ -127,6 +127,12 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   };
   CHECK(replay_of("water.mha").ct == folder / "water.mha");
   CHECK(replay_of("water.mha").replay.without_steps);
+  page.run_scenario = index_of(page, "Kidneys");
+  const Options with_steps = chosen(Task::replay).options;
+  CHECK(with_steps.ct == folder / "water.mha");
+  CHECK(with_steps.scenario.filename() == "kidneys.toml");
+  CHECK_FALSE(with_steps.replay.without_steps);
+  CHECK(replay_of("nobody.mha").ct.empty());
   const OfferedScenario& aorta = page.scenarios()[index_of(page, "Aorta")];
   for (const OfferedVariant& each : aorta.variants) {
     const std::string changed = patient_words("Abdomen phantom", read_scenario(aorta.file, each.seed));
