@@ -20,7 +20,7 @@ struct ReplaySource {
   bool any() const { return !log.empty() || attempt > 0; }
 };
 
-/// Returns whom a log names as its patient (patient_words()); empty if it names nobody or cannot be read.
+/// Returns whom a log names as its patient (LoadedCase::patient); empty if it names nobody or cannot be read.
 std::string recorded_patient(const std::filesystem::path& log);
 
 /// A replay with its patient and scenario.

@@ -131,8 +131,8 @@ std::optional<LinePosition> line_position(const Probe& probe, double depth_mm, c
     const double below_apex = xy_mm.y + apex_behind_mm(probe);
     const double from_apex = glm::length(glm::dvec2(xy_mm.x, below_apex));
     r = phased ? from_apex * xy_mm.y / below_apex : from_apex - probe.radius_mm;
-    if (r < -slack_mm || r > depth_mm + slack_mm)
-      return std::nullopt;  // most pixels beside a fan end here, before the angle
+    // Most pixels beside a fan end here, before the angle.
+    if (r < -slack_mm || r > depth_mm + slack_mm) return std::nullopt;
     across = std::atan2(xy_mm.x, below_apex) / glm::radians(probe.field_of_view_deg) + 0.5;
   }
   if (across < -slack || across > 1 + slack || r < -slack_mm || r > depth_mm + slack_mm) return std::nullopt;
