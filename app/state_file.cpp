@@ -123,6 +123,7 @@ void write_state(const std::filesystem::path& file, Trainer& trainer, const ui::
     state["setup_part"] = view.part;
     state["setup_task"] = view.task;
     state["setup_feedback"] = view.feedback;
+    state["setup_rehearsal"] = setup->rehearsal();
     state["setup_refusal"] = view.refusal;
     state["setup_result"] = view.result;
   }

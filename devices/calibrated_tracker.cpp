@@ -39,9 +39,10 @@ void check_can_be_calibrated(std::string_view uri) {
 std::string sensor_uri(std::string_view uri, bool filtered) {
   const TrackerUri parsed = parse_tracker_uri(uri);
   std::string text(uri);
-  if (!kind_of(parsed).places_sensor || parsed.options.contains("raw")) return text;
+  const TrackerKind& kind = kind_of(parsed);
+  if (!kind.places_sensor || parsed.options.contains("raw")) return text;
   text += parsed.options.empty() ? "?raw=1" : "&raw=1";
-  if (!filtered || parsed.options.contains("filter")) return text;
+  if (!filtered || !kind.make || parsed.options.contains("filter")) return text;
   FilterSettings filters = FilterSettings::usual();
   filters.distortion = parsed.options.contains("distortion");
   return text + "&filter=" + to_string(filters);

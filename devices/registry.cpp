@@ -11,6 +11,7 @@
 #include "devices/mouse/mouse_tracker.h"
 #include "devices/osvr/osvr_tracker.h"
 #include "devices/polhemus/polhemus_tracker.h"
+#include "devices/rehearsal/rehearsal_tracker.h"
 #include "devices/replay/raw_replay.h"
 #include "devices/replay/replay_tracker.h"
 #include "devices/spacemouse/spacemouse_tracker.h"
@@ -37,6 +38,12 @@ constexpr TrackerKind kKinds[] = {
      .summary = "a made-up hand that scans the front of the abdomen, also as from a device",
      .poses = PosesOf::made_up,
      .open = open_synthetic},
+    {.scheme = "rehearsal",
+     .form = "rehearsal:[?raw=1]",
+     .summary = "a made-up hand with a tracked probe, to rehearse the set-up without a tracker",
+     .poses = PosesOf::sensor,
+     .open = open_rehearsal,
+     .places_sensor = true},
     {.scheme = "auto",
      .form = "auto:",
      .summary = "the first of Polhemus, Hydra, OSVR and SpaceMouse that can be opened",

@@ -15,6 +15,7 @@ namespace insonate {
 
 class MouseTracker;
 class RawTap;
+class RehearsalTracker;
 
 enum class TrackerCondition {
   waiting,   ///< open, but no sample has come yet
@@ -81,6 +82,9 @@ public:
   /// Returns the tracker as one that the program itself moves, for the learner's mouse and keyboard; nullptr for all
   /// others.
   virtual MouseTracker* steered() { return nullptr; }
+
+  /// Returns the tracker as one whose made-up hand follows the set-up; nullptr for all others.
+  virtual RehearsalTracker* rehearsed() { return nullptr; }
 
   /// Passes everything that the device sends to `tap` from the first poll on, before it is parsed; raw_recorder.h
   /// records it. A null `tap` receives nothing. Call it before the first poll. Returns false, and does nothing, if

@@ -3,6 +3,7 @@
 #include <ctime>
 #include <utility>
 
+#include "devices/rehearsal/rehearsal_tracker.h"
 #include "sim/core/text.h"
 
 namespace insonate {
@@ -44,7 +45,10 @@ void SetupWizard::begin(std::size_t step) {
 
 void SetupWizard::update(double now_s) {
   samples_.clear();
+  RehearsalTracker* const hand = sensor_.tracker().rehearsed();
+  if (hand) hand->follow(kSetupSteps[current_], step_->view());
   sensor_.poll(now_s, samples_);
+  rehearsal_ = hand ? hand->doing() : "";
   for (const SensorSample& sample : samples_) {
     const SensorSample seen = presses_.only_pressed(sample);
     if (!step_->view().done)

@@ -48,6 +48,8 @@ public:
   std::string title_of(std::string_view name) const;
   std::size_t current() const { return current_; }
   SetupView view() const { return step_->view(); }
+  /// Returns what the made-up hand of a rehearsal does, a sentence; empty with any other tracker.
+  const std::string& rehearsal() const { return rehearsal_; }
   /// Returns the places of the body that the step `landmarks` asks for, in its order.
   std::vector<LandmarkPair> landmarks() const;
 
@@ -71,6 +73,7 @@ private:
   bool kept_ = false, finished_ = false;
   ButtonPresses presses_;
   std::vector<SensorSample> samples_;
+  std::string rehearsal_;
 };
 
 }  // namespace insonate

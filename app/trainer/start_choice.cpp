@@ -84,8 +84,9 @@ std::string StartPage::why_not() const {
     case Task::setup: {
       if (std::string why = why_no_tracker(); !why.empty()) return why;
       const OfferedTracker* chosen = chosen_tracker();
-      return chosen && chosen->has_sensor ? ""
-                                          : "This tracker has no sensor to set up: choose another one on the right.";
+      return chosen && chosen->has_sensor
+                 ? ""
+                 : "This tracker has no sensor to set up: choose another one on the right, or rehearse.";
     }
   }
   return "";

@@ -355,7 +355,10 @@ void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
 /// Lists a tracker that no search has found.
 void StartPage::offer_tracker(const std::string& uri) {
   const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
-  if (!uri.empty() && std::ranges::none_of(trackers_, same))
+  if (uri.empty() || std::ranges::any_of(trackers_, same)) return;
+  if (uri == kRehearsal)
+    trackers_.push_back({uri, "Made-up hand, a rehearsal", FoundTracker::State::ready, "", true});
+  else
     trackers_.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri), false});
 }
 

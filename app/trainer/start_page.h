@@ -61,6 +61,9 @@ struct OfferedRun {
   bool needs_scenario() const { return replay.attempt == 0 && scenario.empty(); }
 };
 
+/// The tracker that stands in for one in a rehearsal of the set-up.
+inline constexpr const char* kRehearsal = "rehearsal:";
+
 /// A tracker that can be chosen.
 struct OfferedTracker {
   std::string uri, name;

@@ -326,7 +326,7 @@ private:
   void update(Mode& mode, double now_s);
   void begin_replay(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
   void show(std::shared_ptr<const LoadedCase> loaded_case, const Request& request);
-  std::filesystem::path own_calibration() const;
+  std::filesystem::path own_calibration(const std::string& uri) const;
   void find_calibration();
   bool uses_calibration(const Request& request) const;
   bool needs_setup(const Request& request) const;

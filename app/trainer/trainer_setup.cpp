@@ -29,12 +29,13 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
-std::filesystem::path Trainer::own_calibration() const {
-  return options_.out / "calibration.toml";
+std::filesystem::path Trainer::own_calibration(const std::string& uri) const {
+  // A rehearsal leaves the lab's own set-up alone.
+  return options_.out / (uri == kRehearsal ? "rehearsed_calibration.toml" : "calibration.toml");
 }
 
 void Trainer::find_calibration() {
-  const std::filesystem::path file = own_calibration();
+  const std::filesystem::path file = own_calibration(options_.tracker);
   std::error_code error;
   if (!options_.calibration.empty() || options_.tracker.empty() || !can_store_setup(options_.tracker)) return;
   if (!std::filesystem::exists(file, error)) return;
@@ -59,8 +60,8 @@ std::string Trainer::next_start() const {
   const std::string& uri = current_.tracker;
   const bool plain = uri.find_first_of("?&* '\"$;") == std::string::npos;
   const std::string command = "insonate --tracker " + (plain ? uri : "'" + uri + "'");
-  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
-  if (file == own_calibration() && can_store_setup(uri))
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration(uri) : options_.calibration;
+  if (file == own_calibration(uri) && can_store_setup(uri))
     return "From the next start on it is used by itself, as long as you start in the same folder: " + command +
            (options_.out == Options().out ? "" : " --out " + options_.out.string());
   return "To use it from the next start on: " + command + " --calibration " + file.string();
@@ -137,7 +138,7 @@ bool Trainer::can_be_set_up(const Request& request) const {
 void Trainer::open_setup() {
   const std::string uri = current_.tracker;
   check_can_be_calibrated(uri);
-  const std::filesystem::path file = options_.calibration.empty() ? own_calibration() : options_.calibration;
+  const std::filesystem::path file = options_.calibration.empty() ? own_calibration(uri) : options_.calibration;
   Calibration base = calibration_to_continue(file, tracker_identity(uri));
   SetupInput given;
   given.landmarks = landmarks_for(loaded_case_->subject.name, options_.landmarks);

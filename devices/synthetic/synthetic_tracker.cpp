@@ -12,6 +12,7 @@
 
 #include "devices/live/live_tracker.h"
 #include "devices/live/paced_source.h"
+#include "devices/synthetic/least_jerk.h"
 #include "sim/core/hash.h"
 #include "sim/core/input_error.h"
 
@@ -44,11 +45,6 @@ enum Purpose : std::uint32_t {
   kDropoutLength,
   kDropoutStatus,
 };
-
-/// Progress of a hand's reaching movement from 0 to 1: the minimum-jerk path (Flash and Hogan, J. Neurosci. 1985).
-double least_jerk(double t) {
-  return t * t * t * (10 - 15 * t + 6 * t * t);
-}
 
 double between(double least, double most, double t) {
   return least + (most - least) * t;

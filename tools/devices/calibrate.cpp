@@ -15,6 +15,7 @@
 #include "devices/calibration/steps/setup_step.h"
 #include "devices/live/steady_clock.h"
 #include "devices/registry.h"
+#include "devices/rehearsal/rehearsal_tracker.h"
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
 #include "tools/devices/commands.h"
@@ -81,22 +82,32 @@ public:
         sensor_(open_tracker(sensor_uri(uri, false))),
         offset_s_(sensor_.tracker().live() ? 0 : steady_now_s()) {}
 
-  void run(SetupStep& step) {
+  /// @param name  of kSetupSteps
+  void run(std::string_view name, SetupStep& step) {
     Page page;
     std::string problem;
-    page.show(step.view());
+    page.show(view(step));
     while (!step.view().done) {
+      if (RehearsalTracker* hand = sensor_.tracker().rehearsed()) hand->follow(name, step.view());
       if (next_ == samples_.size()) wait(step, problem);
       // Remaining samples belong to the next step.
       while (next_ < samples_.size() && !step.view().done) {
         step.feed(presses_.only_pressed(samples_[next_++]));
-        page.show(step.view());
+        page.show(view(step));
       }
-      page.show(step.view());
+      page.show(view(step));
     }
   }
 
 private:
+  /// Returns the step's view, with what the made-up hand of a rehearsal does.
+  SetupView view(const SetupStep& step) {
+    SetupView shown = step.view();
+    if (const RehearsalTracker* hand = sensor_.tracker().rehearsed(); hand && !shown.done)
+      shown.feedback = hand->doing() + (shown.feedback.empty() ? "" : " " + shown.feedback);
+    return shown;
+  }
+
   void wait(SetupStep& step, std::string& problem) {
     if (sensor_.tracker().state().condition == TrackerCondition::finished)
       throw InputError("tracker '" + uri_ + "'", "", "it ended before the step was done: " + step.view().task,
@@ -148,7 +159,7 @@ int calibrate(const CalibrateRequest& request) {
     std::printf("\n%s\n", step->view().title.c_str());
     if (name == "face" && given.drawing && !step->view().done)
       throw InputError(request.drawing.string(), "", step->view().refusal, "correct the drawing, or leave it out");
-    bench.run(*step);
+    bench.run(name, *step);
     step->store(calibration, std::int64_t(std::time(nullptr)));
     // Written after each step, so that abandoning a later step loses nothing.
     write_calibration(request.out, calibration);

@@ -88,8 +88,10 @@ void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard,
   rest.take_top(std::max(height, theme.px(64)) + theme.px(10));
   draw_progress(theme, rest.take_bottom(theme.px(10)), view.share);
   rest.take_bottom(theme.px(10));
-  draw_text(rest.take_bottom(theme.px(28)), theme.heading, view.reading ? colour::kAccent : colour::kMuted,
-            view.feedback);
+  Rect line = rest.take_bottom(theme.px(28));
+  draw_text(line.take_right(text_width(theme.heading, wizard.rehearsal())), theme.heading, colour::kText,
+            wizard.rehearsal());
+  draw_text(line, theme.heading, view.reading ? colour::kAccent : colour::kMuted, view.feedback);
   rest.take_bottom(theme.px(8));
   if (const std::string why = complaint(wizard, view); !why.empty())
     draw_plate(theme, rest, colour::kAmber, colour::kAmber, theme.large, why);

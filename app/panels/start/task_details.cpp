@@ -241,6 +241,17 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
     draw_paragraph({row.x, row.centre().y - height / 2, row.w, height}, theme.text,
                    each.file.empty() ? colour::kMuted : colour::kText, file);
   }
+  const char* const words = "without a tracker: a made-up hand does what the steps ask for, and you mark";
+  Rect row = rest.take_top(
+      std::max(theme.px(34), paragraph_height(theme.text, words, rest.w - theme.text_px(220) - theme.px(12))));
+  places["rehearse"] = row.take_left(theme.text_px(220));
+  row.take_left(theme.px(12));
+  if (button(theme, "rehearse", places["rehearse"], "Rehearse")) {
+    page.choose_tracker(kRehearsal);
+    answer.kind = StartAnswer::Kind::begin;
+  }
+  draw_paragraph({row.x, row.centre().y - paragraph_height(theme.text, words, row.w) / 2, row.w, row.h}, theme.text,
+                 colour::kMuted, words);
   return answer;
 }
 

@@ -11,14 +11,19 @@ namespace {
 class LandmarkStep : public TouchingStep {
 public:
   LandmarkStep(const Calibration& base, const LandmarkList& list)
-      : TouchingStep(base, "Landmarks", list.landmarks.size()), patient_(list.patient), pairs_(list.landmarks) {}
+      : TouchingStep(base, "Landmarks", list.landmarks.size()), patient_(list.patient), pairs_(list.landmarks) {
+    for (const LandmarkPair& pair : pairs_) places_mm_.push_back(pair.ct_mm);
+  }
   /// The landmarks of the last set-up again, after the base or the mannequin was moved.
   explicit LandmarkStep(const Calibration& base)
       : TouchingStep(base, "Landmarks, moved", base.mannequin->value.landmarks.size()),
         patient_(base.mannequin->value.patient),
         pairs_(base.mannequin->value.landmarks),
         moved_(true) {
-    for (LandmarkPair& pair : pairs_) pair.ct_mm = pair.touched_mm;
+    for (LandmarkPair& pair : pairs_) {
+      places_mm_.push_back(pair.ct_mm);
+      pair.ct_mm = pair.touched_mm;
+    }
   }
   void store(Calibration& calibration, std::int64_t now_s) const override;
 
@@ -26,17 +31,24 @@ protected:
   std::string task(std::size_t touch) const override;
   glm::dvec3 point(std::size_t touch, const Pose& tracker_from_sensor) const override;
   void finish() override;
+  void ask(SetupView& view) const override;
   std::string result() const override;
 
 private:
   std::string patient_;
-  std::vector<LandmarkPair> pairs_;  ///< ct_mm: target of the fit; if moved, places in the mannequin's frame
+  std::vector<LandmarkPair> pairs_;    ///< ct_mm: target of the fit; if moved, places in the mannequin's frame
+  std::vector<glm::dvec3> places_mm_;  ///< of the landmarks in the patient
   bool moved_ = false;
   Registration found_;
 };
 
 std::string LandmarkStep::task(std::size_t touch) const {
   return "Touch " + pairs_[touch].name + " with the tip. Mark, and hold still.";
+}
+
+void LandmarkStep::ask(SetupView& view) const {
+  TouchingStep::ask(view);
+  view.landmark_mm = places_mm_[points_.size()];
 }
 
 glm::dvec3 LandmarkStep::point(std::size_t, const Pose& tracker_from_sensor) const {

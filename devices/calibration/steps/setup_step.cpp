@@ -14,7 +14,7 @@ void SetupStep::feed(const SensorSample& sample) {
 
 std::string why_not_yet(std::string_view step, const Calibration& base, const SetupInput& given) {
   const bool touches = step == "landmarks" || (step == "face" && !given.drawing);
-  if (touches && !base.tip) return "The probe's tip is not known yet; make the step 'pivot' (Probe tip) first.";
+  if (touches && !base.tip) return "The probe's tip is not known yet; make the step Probe tip ('pivot') first.";
   if (step == "landmarks" && given.moved && !base.mannequin)
     return "There are no landmarks yet to find again; touch the patient's first.";
   if (step == "landmarks" && !given.moved && !given.landmarks) return "The patient's landmarks are not given.";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <memory>
 #include <optional>
@@ -25,6 +27,7 @@ struct SetupView {
   std::size_t part = 0;  ///< index of the next move, touch or knock, from 0, if the step has several
   bool reading = false;  ///< samples are being read: hold still, or pivot
   bool done = false;
+  std::optional<glm::dvec3> landmark_mm;  ///< the landmark to touch, patient mm, if the step asks for one
 };
 
 /// A step of the set-up while it is being made. A terminal or a window shows its view to the user. It receives every

@@ -98,7 +98,7 @@ TEST_CASE("insonate-devices calibrate makes one step at a time and keeps the oth
   landmarks.landmarks(patient().landmarks, 0.3);
   const ProgramOutcome first = run("landmarks" + to + recorded(folder, "3.igs.mha", landmarks));
   CHECK(first.code == 2);
-  CHECK_THAT(first.output, Contains("make the step 'pivot' (Probe tip) first"));
+  CHECK_THAT(first.output, Contains("make the step Probe tip ('pivot') first"));
   CHECK_THAT(run("pivot" + to + recorded(folder, "1.igs.mha", pivot)).output,
              Contains("the step 'face' is still to be made"));
   CHECK_THAT(run("face" + to + recorded(folder, "2.igs.mha", face)).output, Contains("the step 'landmarks' is still"));
@@ -144,7 +144,7 @@ TEST_CASE("insonate-devices calibrate refuses what it cannot use in a sentence, 
       {"pivot --tracker " + cut, "--out is required"},
       {"pivto" + to + cut, "pivto"},
       {"face --drawing /nowhere.toml" + to + cut, "/nowhere.toml: there is no such file"},
-      {"landmarks --moved" + to + cut, "'pivot' (Probe tip) first"},
+      {"landmarks --moved" + to + cut, "Probe tip ('pivot') first"},
   };
   for (const auto& [arguments, says] : wrong) {
     const ProgramOutcome refused = run(arguments);

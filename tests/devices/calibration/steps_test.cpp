@@ -140,8 +140,8 @@ TEST_CASE("a hand that slips is asked again, and takes a touch back") {
   const Lab lab;
   Calibration base;
   const SetupInput given{.landmarks = patient()};
-  CHECK_THAT(why_not_yet("face", base, given), Contains("'pivot' (Probe tip) first"));
-  CHECK_THAT(why_not_yet("landmarks", base, given), Contains("'pivot' (Probe tip) first"));
+  CHECK_THAT(why_not_yet("face", base, given), Contains("Probe tip ('pivot') first"));
+  CHECK_THAT(why_not_yet("landmarks", base, given), Contains("Probe tip ('pivot') first"));
 
   const auto pivot = begin_setup_step("pivot", base, given);
   Hand clumsy(lab, 3);
