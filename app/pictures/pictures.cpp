@@ -80,6 +80,7 @@ void Pictures::show(const LoadedCase& loaded_case) {
   simulator_.set_volume(loaded_case.acoustic, loaded_case.tissues);
   patient_ = std::move(patient);
   ultrasound_ = slice_ = blend_ = volume_ = nullptr;
+  has_labels_ = !loaded_case.subject.labels.empty();
   outlined_.clear();
   for (std::size_t label = 1; label < patient_->colours().size(); ++label)
     if (patient_->colours()[label].opacity > 0) outlined_.push_back(std::uint8_t(label));

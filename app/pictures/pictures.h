@@ -97,6 +97,8 @@ public:
   const gl::Texture* draw_probe(const view::OrbitCamera& from, int width, int height, const Probe& probe,
                                 const Pose& patient_from_probe, bool on_body);
   const Grid& grid() const { return grid_; }
+  /// Returns whether the patient has labels, whose outlines can be drawn.
+  bool has_labels() const { return has_labels_; }
 
   /// Shows the whole patient from one side in volume().
   void look_from(view::Side side);
@@ -188,6 +190,7 @@ private:
   view::UltrasoundPlane plane_;
   view::OrbitCamera volume_camera_;
   Pose volume_pose_;
+  bool has_labels_ = false;
   std::vector<std::uint8_t> outlined_;  ///< labels that have a colour
   std::string probe_name_;
   double depth_mm_ = 0;

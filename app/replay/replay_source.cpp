@@ -40,13 +40,6 @@ KeptRun kept_run(const std::filesystem::path& log, const std::filesystem::path& 
   return run;
 }
 
-std::string patient_of(const RecordedScan& scan) {
-  for (const auto& [time_s, actions] : parse_action_log(scan.recording.actions, scan.recording.file))
-    for (const Action& action : actions)
-      if (action.kind == ActionKind::patient) return action.text;
-  return "";
-}
-
 bool has_any(const std::filesystem::path& log, std::int64_t attempt) {
   return !log.empty() || attempt > 0;
 }
@@ -55,7 +48,7 @@ bool has_any(const std::filesystem::path& log, std::int64_t attempt) {
 
 std::string recorded_patient(const std::filesystem::path& log) {
   try {
-    return patient_of(read_log(log));
+    return recorded_patient(read_log(log).recording);
   } catch (const InputError&) {
     return "";
   }
@@ -76,11 +69,8 @@ LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, con
     case_source.kept = run.scenario;
   }
   LoadedCase patient = load_case(case_source, progress);
-  if (const std::string recorded = patient_of(run.scan);
-      !run.scenario && !recorded.empty() && recorded != patient.patient)
-    throw InputError(run.scan.recording.file, "",
-                     "it was recorded on '" + recorded + "', not on '" + patient.patient + "'",
-                     "open that patient first, then this recording");
+  check_recorded_on(patient, run.scan.recording);
+  if (expert) check_recorded_on(patient, expert->scan.recording);
   if (source.without_steps && !run.scenario) patient.scenario.reset();
   LoadedReplay loaded;
   loaded.loaded_case = std::make_shared<const LoadedCase>(std::move(patient));

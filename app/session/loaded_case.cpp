@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "devices/replay/read_log.h"
+#include "scenarios/action.h"
 #include "sim/core/input_error.h"
 #include "sim/files/files.h"
 #include "sim/tissue/skin_contact.h"
@@ -46,6 +47,20 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
 }
 
 }  // namespace
+
+std::string recorded_patient(const Recording& recording) {
+  for (const auto& [time_s, actions] : parse_action_log(recording.actions, recording.file))
+    for (const Action& action : actions)
+      if (action.kind == ActionKind::patient) return action.text;
+  return "";
+}
+
+void check_recorded_on(const LoadedCase& patient, const Recording& recording) {
+  const std::string recorded = recorded_patient(recording);
+  if (!recorded.empty() && recorded != patient.patient)
+    throw InputError(recording.file, "", "it was recorded on '" + recorded + "', not on '" + patient.patient + "'",
+                     "open that patient first, then this recording");
+}
 
 std::string patient_words(const std::string& name, const Scenario& scenario) {
   std::string words = name;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "devices/recording.h"
 #include "devices/tracker_context.h"
 #include "scenarios/scenario.h"
 #include "sim/tissue/acoustic_volume.h"
@@ -40,6 +41,12 @@ struct LoadedCase {
 /// Returns a built-in patient in words, with what a scenario has changed on it: "Abdomen phantom, aorta_diameter_mm
 /// 45".
 std::string patient_words(const std::string& name, const Scenario& scenario);
+
+/// Returns the patient that a recording names; empty if it names none. Throws InputError if its actions cannot be read.
+std::string recorded_patient(const Recording& recording);
+
+/// Throws InputError if the recording names another patient.
+void check_recorded_on(const LoadedCase& patient, const Recording& recording);
 
 /// Reads the exam that `source` names; empty for free practice. Throws InputError.
 std::optional<Scenario> read_exam(const CaseSource& source);

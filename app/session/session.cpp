@@ -112,6 +112,7 @@ Tracker& Session::source() {
 std::unique_ptr<Tracker> Session::open_fresh() const {
   std::unique_ptr<Tracker> tracker = open_();
   check_source(*tracker, loaded_case_->scenario.has_value());
+  if (const Recording* recording = tracker->recording()) check_recorded_on(*loaded_case_, *recording);
   return tracker;
 }
 

@@ -86,11 +86,6 @@ bool is_named_as_labels(const fs::path& file) {
          name.find("_seg.") != std::string::npos;
 }
 
-std::int64_t changed_s(const fs::path& path) {
-  struct stat status {};
-  return stat(path.c_str(), &status) == 0 ? std::int64_t(status.st_mtime) : 0;
-}
-
 /// Returns nothing for what is not shown.
 std::optional<FolderEntry> entry_of(const fs::directory_entry& found, Wanted wanted) {
   std::error_code error;
@@ -171,6 +166,11 @@ std::string size_text(std::uintmax_t bytes) {
   std::size_t unit = 0;
   for (; size >= 999.5 && unit + 1 < std::size(kUnits); ++unit) size /= 1000;
   return formatted("%.0f %s", size, kUnits[unit]);
+}
+
+std::int64_t changed_s(const fs::path& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 ? std::int64_t(status.st_mtime) : 0;
 }
 
 std::string time_text(std::int64_t since_1970_s) {

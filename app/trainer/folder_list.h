@@ -65,6 +65,9 @@ std::filesystem::path typed_path(const std::string& typed);
 std::filesystem::path folder_above(const std::filesystem::path& folder);
 std::filesystem::path home_folder();
 
+/// Returns when a file was last changed, in seconds since 1970; 0 if it cannot be known.
+std::int64_t changed_s(const std::filesystem::path& path);
+
 /// Return a size and a time for a list: "84 MB", "2026-11-24 18:05" in the computer's own time.
 std::string size_text(std::uintmax_t bytes);
 std::string time_text(std::int64_t since_1970_s);

@@ -311,9 +311,12 @@ void StartPage::read_runs() {
       offered_run.expert = skilled->second;
     runs_.push_back(std::move(offered_run));
   }
-  for (const fs::path& log : files_in(options_.out, ".igs.mha")) {
+  std::vector<fs::path> recordings = files_in(options_.out, ".igs.mha");
+  std::ranges::stable_sort(recordings, std::ranges::greater(), changed_s);
+  for (const fs::path& log : recordings) {
     if (log.filename().string().ends_with("-images.igs.mha")) continue;  // beside a recording of the same run
-    OfferedRun offered_run(log.filename().string(), "Recording in " + options_.out.string());
+    OfferedRun offered_run(log.filename().string(),
+                           time_text(changed_s(log)) + ", recording in " + options_.out.string());
     offered_run.replay.log = log;
     runs_.push_back(std::move(offered_run));
   }
@@ -472,7 +475,7 @@ void StartPage::add(const fs::path& path) {
     case Material::raw_log:
       return choose_tracker("raw:" + path.string());
     case Material::tracker_log: {
-      OfferedRun offered(name, "Recording in " + path.parent_path().string());
+      OfferedRun offered(name, time_text(changed_s(path)) + ", recording in " + path.parent_path().string());
       offered.replay.log = path;
       runs_.push_back(std::move(offered));
       run = runs_.size() - 1;

@@ -172,7 +172,7 @@ void draw_blend_controls(const Theme& theme, const Rect& strip, Pictures& pictur
 
 }  // namespace
 
-void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view, CtLook& look,
+void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view, CtLook& look, bool has_labels,
                         std::map<std::string, Rect>& places) {
   shown_in_ = ImGui::GetFrameCount();
   const float row = theme.px(26);
@@ -186,9 +186,10 @@ void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view,
   fill(menu, colour::kPanel, theme.px(4));
   outline(menu, colour::kLine, theme.px(4));
   Rect rest = menu.inset(theme.px(4), theme.px(4));
-  const auto next = [&](const std::string& id, const std::string& text, bool chosen, const char* tip = "") {
+  const auto next = [&](const std::string& id, const std::string& text, bool chosen, const char* tip = "",
+                        bool enabled = true) {
     const Rect place = places[id] = rest.take_top(row).inset(0, theme.px(1));
-    return button(theme, id.c_str(), place, text, chosen ? ButtonKind::chosen : ButtonKind::normal, true, tip);
+    return button(theme, id.c_str(), place, text, chosen ? ButtonKind::chosen : ButtonKind::normal, enabled, tip);
   };
   for (std::size_t i = 0; i < kWindowPresets.size(); ++i) {
     const WindowPreset& preset = kWindowPresets[i];
@@ -198,8 +199,10 @@ void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view,
     look.grey = preset.grey;
     menu_.reset();
   }
-  if (next("ct_outlines", look.outlines ? "Outlines of organs: on" : "Outlines of organs: off", look.outlines,
-           "Draws the edges of labelled organs in all CT pictures  (O)"))
+  if (!has_labels)
+    next("ct_outlines", "Outlines of organs", false, "This patient has no labels to outline", false);
+  else if (next("ct_outlines", look.outlines ? "Outlines of organs: on" : "Outlines of organs: off", look.outlines,
+                "Draws the edges of labelled organs in all CT pictures  (O)"))
     look.outlines = !look.outlines;
   if (axis &&
       next("ct_cross", look.cross_hair == CrossHair::face ? "Cross: the probe's face" : "Cross: the fan's middle",
@@ -210,14 +213,14 @@ void CtPanel::draw_menu(const Theme& theme, const Rect& button_place, View view,
   ImGui::InvisibleButton("ct_menu", {menu.w, menu.h});
 }
 
-Rect CtPanel::draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look,
+Rect CtPanel::draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look, bool has_labels,
                                std::map<std::string, Rect>& places) {
   const std::string text = grey_text(look.grey);
   const float height = theme.px(24), margin = theme.px(4);
   const Rect place{picture.x + margin, picture.y + picture.h - margin - height,
                    text_width(theme.text, text) + theme.px(14), height};
   places[std::string("grey_") + name_of(view)] = place;
-  if (menu_ == view) draw_menu(theme, place, view, look, places);
+  if (menu_ == view) draw_menu(theme, place, view, look, has_labels, places);
   if (button(theme, "grey", place, text, menu_ == view ? ButtonKind::chosen : ButtonKind::normal, true,
              menu_ == view ? ""
                            : "Window and level of the CT, in Hounsfield units. Drag in the picture: across changes "
@@ -252,7 +255,7 @@ bool CtPanel::draw(const Theme& theme, View view, const Rect& panel, Pictures& p
                "Moves all slices back to where the cross follows the probe  (B)"))
       pictures.slices_to_cross_hair();
   }
-  draw_grey_button(theme, view, area, look, places);
+  draw_grey_button(theme, view, area, look, pictures.has_labels(), places);
 
   ImGui::SetCursorScreenPos(area.min());
   ImGui::InvisibleButton("picture", {area.w, area.h});

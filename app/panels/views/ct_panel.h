@@ -31,9 +31,10 @@ public:
   bool close_menu() { return std::exchange(menu_, std::nullopt) && shown_in_ >= ImGui::GetFrameCount() - 1; }
 
 private:
-  Rect draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look,
+  Rect draw_grey_button(const Theme& theme, View view, const Rect& picture, CtLook& look, bool has_labels,
                         std::map<std::string, Rect>& places);
-  void draw_menu(const Theme& theme, const Rect& button, View view, CtLook& look, std::map<std::string, Rect>& places);
+  void draw_menu(const Theme& theme, const Rect& button, View view, CtLook& look, bool has_labels,
+                 std::map<std::string, Rect>& places);
 
   std::optional<View> menu_;         ///< whose menu is open
   int shown_in_ = -1;                ///< the last of ImGui's frames with a menu; its view may be hidden since

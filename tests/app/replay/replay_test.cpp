@@ -336,6 +336,13 @@ TEST_CASE("a recording of another patient is refused, and without steps nothing 
   };
   CHECK_THROWS_WITH(load("other"), Catch::Contains("it was recorded on 'this', not on 'other'"));
   CHECK(load("this").replay->run().result.has_value());
+  source.beside_log = folder.path / "beside.igs.mha";
+  write_file(
+      source.beside_log,
+      write_sequence(taken.samples,
+                     to_texts(ActionLog{{taken.samples.front().time_s, {Action{ActionKind::patient, {}, "other"}}}})));
+  CHECK_THROWS_WITH(load("this"), Catch::Contains("it was recorded on 'other', not on 'this'"));
+  source.beside_log.clear();
   source.without_steps = true;
   CHECK_FALSE(load("this").replay->run().result.has_value());
 }

@@ -169,6 +169,14 @@ TEST_CASE("another log can be opened in the same session's place, another patien
   trainer.draw(kSizes);
   CHECK(trainer.pictures().ultrasound() != nullptr);
   CHECK(guided_to() == std::vector<std::string>{"ball", "bare"});
+
+  INFO("a log that names another patient is refused");
+  const fs::path foreign = folder.file(
+      "foreign.igs.mha", write_sequence(samples_of(2, 60, [](double) { return Pose{}; }),
+                                        to_texts(ActionLog{{0, {Action{ActionKind::patient, {}, "somebody else"}}}})));
+  open_and_wait(trainer, foreign);
+  REQUIRE(trainer.problems().size() == 1);
+  CHECK(trainer.problems()[0].find("it was recorded on 'somebody else'") != std::string::npos);
 }
 
 TEST_CASE("without a window there is nobody to answer a dialog: bad input passes through") {
