@@ -130,6 +130,12 @@ void PatientLook::scale(double factor) {
   shown_ = base_->moved(shift_hu_, scale_);
 }
 
+bool PatientLook::hides_plane() const {
+  constexpr double kSoftTissue_hu = 40;  // muscle, and organs without contrast medium
+  constexpr double kClear = 0.05;        // opacity of 1 mm
+  return !shown_ || !shown_structures().empty() || shown_->at(kSoftTissue_hu).opacity > kClear;
+}
+
 fs::path PatientLook::save() {
   if (folder_.empty()) throw std::logic_error("a look is saved without a folder");
   TransferFunction saved = *shown_;

@@ -66,6 +66,10 @@ public:
   double shift_hu() const { return shift_hu_; }
   double scale_factor() const { return scale_; }
 
+  /// Returns whether what is shown hides a plane within the body, so that the body has to be cut there: all but a
+  /// function that leaves soft tissue clear, without structures.
+  bool hides_plane() const;
+
   /// Writes the shown function to the person's folder and offers it, with "(edited)" behind the name of a bundled one.
   /// A function that came from a file there replaces it. Returns the file. Throws InputError if it cannot be written,
   /// std::logic_error without a folder.

@@ -186,7 +186,8 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
     body.organs = false;
     body.skin = 1;
   }
-  body.cut = anatomy && std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
+  body.cut = anatomy && look.hides_plane() &&
+             std::abs(glm::dot(camera.patient_from_camera().rotation[2], pose->rotation[2])) > kEdgeOn;
   if (!shows_volume) volume_ = nullptr;
   if (is_due(kVolume, volume_)) {
     volume_camera_ = camera;

@@ -47,6 +47,17 @@ TEST_CASE("a point stays between its neighbours and within the opacity that a fi
   CHECK(look.shown()->points[1].opacity == 0);
 }
 
+TEST_CASE("looks that leave soft tissue clear do not hide the plane") {
+  PatientLook look;
+  CHECK(look.hides_plane());
+  std::vector<std::string> clear;
+  for (std::size_t i = 0; i < look.offered().size(); ++i) {
+    look.choose(i);
+    if (!look.hides_plane()) clear.push_back(look.offered()[i].name);
+  }
+  CHECK(clear == std::vector<std::string>{"Organs", "Vessels", "Bones", "Lungs"});
+}
+
 TEST_CASE("points are added with the colour of their place, and two always stay") {
   PatientLook look;
   look.choose(0);
@@ -184,6 +195,8 @@ TEST_CASE("a look offers the structures that have a colour, bones last, and each
   look.show_structure(2, true);
   CHECK(look.shown_structures() == std::vector<std::uint8_t>{9, 2});
   look.show_structure(2, false);
+  look.choose(4);  // through bones the plane is seen, but not behind a structure
+  CHECK(look.hides_plane());
   look.choose(0);  // another look keeps them
   CHECK(look.shown_structures() == std::vector<std::uint8_t>{9});
   look.offer({}, {});  // another patient does not

@@ -37,7 +37,6 @@ echo "K opens the panel of looks in place of the CT's views, and a look is shown
 xdotool key k
 await "the panel is there" is_not look_panel_x ""
 is slice_x "" || fail "the CT's slice lies below the panel"
-click_on view_left  # from there the patient is not cut along the plane
 await "nothing changes any more" shows_nothing
 shot "$work/labels.png" space 4
 click_on look5
