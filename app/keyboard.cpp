@@ -412,7 +412,8 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
     case GLFW_KEY_G:
       if (repeated) break;
       if (session.strict())
-        screen.show_note("This exam counts: there is no guide in it");
+        screen.show_note(session.result() ? "The exam is over: practise it to see the guide"
+                                          : "This exam counts: there is no guide in it");
       else if (!trainer.guide().can_lead(session))
         screen.show_note("The guide leads to views, and this step asks for none");
       else

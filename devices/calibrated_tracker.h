@@ -47,6 +47,7 @@ public:
   const Recording* recording() const override { return recording_ ? &*recording_ : nullptr; }
   bool repeats() const override { return sensor_.tracker().repeats(); }
   bool live() const override { return sensor_.tracker().live(); }
+  RehearsalTracker* rehearsed() override { return sensor_.tracker().rehearsed(); }
   bool record_raw(const std::shared_ptr<RawTap>& tap) override { return sensor_.tracker().record_raw(tap); }
   double clock_s(double now_s) const override { return sensor_.tracker().clock_s(now_s); }
 

@@ -60,6 +60,8 @@ struct StepResult {
   std::vector<std::pair<Metric, double>> values;           ///< other values measured by this kind of step
   std::vector<std::pair<std::string, std::string>> facts;  ///< other information for the reader: "answer", "a stone"
   static constexpr const char* kMeasured = "measured";     ///< the fact that is the learner's own value: "188 ml"
+  static constexpr const char* kNotHeld =
+      "missed at the end";  ///< the fact that names limits which kept the view from being held
   MotionValues motion;
   std::vector<CriterionScore> criteria;
   int hints_taken = 0;

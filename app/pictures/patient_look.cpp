@@ -131,9 +131,17 @@ void PatientLook::scale(double factor) {
 }
 
 bool PatientLook::hides_plane() const {
-  constexpr double kSoftTissue_hu = 40;  // muscle, and organs without contrast medium
-  constexpr double kClear = 0.05;        // opacity of 1 mm
-  return !shown_ || !shown_structures().empty() || shown_->at(kSoftTissue_hu).opacity > kClear;
+  constexpr double kFat_hu = -200, kOrgan_hu = 130;  // from the skin to organs with contrast medium
+  constexpr double kClear = 0.01;                    // opacity of 1 mm: 5 cm of it let more than half through
+  if (!shown_ || !shown_structures().empty()) return true;
+  const auto hides = [](const view::TransferPoint& point) { return point.opacity > kClear; };
+  const auto is_of_soft_tissue = [](const view::TransferPoint& point) {
+    return point.hu > kFat_hu && point.hu < kOrgan_hu;
+  };
+  return hides(shown_->at(kFat_hu)) || hides(shown_->at(kOrgan_hu)) ||
+         std::ranges::any_of(shown_->points, [&](const view::TransferPoint& point) {
+           return is_of_soft_tissue(point) && hides(point);
+         });
 }
 
 fs::path PatientLook::save() {

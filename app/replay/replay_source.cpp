@@ -69,8 +69,9 @@ LoadedReplay load_replay(const ReplaySource& source, CaseSource case_source, con
     case_source.kept = run.scenario;
   }
   LoadedCase patient = load_case(case_source, progress);
-  check_recorded_on(patient, run.scan.recording);
-  if (expert) check_recorded_on(patient, expert->scan.recording);
+  // An attempt in a database keeps its own patient.
+  if (!run.scenario) check_recorded_on(patient, run.scan.recording);
+  if (expert && !expert->scenario) check_recorded_on(patient, expert->scan.recording);
   if (source.without_steps && !run.scenario) patient.scenario.reset();
   LoadedReplay loaded;
   loaded.loaded_case = std::make_shared<const LoadedCase>(std::move(patient));

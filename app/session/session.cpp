@@ -92,6 +92,10 @@ Session::Session(std::shared_ptr<const LoadedCase> loaded_case, OpenTracker open
   begin_attempt();
 }
 
+bool Session::can_take_steps() const {
+  return loaded_case_->scenario && (holder_ == Holder::learner || !tracker_->rehearsed());
+}
+
 Machine Session::first_machine() const {
   if (loaded_case_->scenario) return starting_machine(*loaded_case_->scenario, loaded_case_->subject);
   Machine machine;
@@ -126,7 +130,8 @@ void Session::begin_attempt() {
   runner_.reset();
   exam_samples_.clear();
   result_.reset();
-  if (activity_ == Activity::exam && loaded_case_->scenario)
+  if (!can_take_steps()) activity_ = Activity::practice;
+  if (activity_ == Activity::exam)
     runner_ = std::make_unique<Runner>(*loaded_case_->scenario, loaded_case_->subject, loaded_case_->tissues);
   last_usable_s_ = attempt_began_s_ = now_s_;
   event_markers_s_.clear();
@@ -153,7 +158,7 @@ void Session::begin_attempt() {
 
 void Session::start_over(Activity activity) {
   if (strict() && runner_ && runner_->live().started) return;
-  activity_ = loaded_case_->scenario ? activity : Activity::practice;
+  activity_ = activity;
   if (holder_ == Holder::learner)
     learner_ = std::make_unique<MouseTracker>(loaded_case_->surroundings.start);
   else

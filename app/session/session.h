@@ -63,6 +63,9 @@ public:
 
   // The exam
   Activity activity() const { return activity_; }
+  /// Returns whether there are steps that can begin: the patient has a scenario, and the probe is not in the made-up
+  /// hand of a rehearsal, whose scan would be scored as the learner's.
+  bool can_take_steps() const;
   /// Returns whether the exam is taken under strict rules.
   bool strict() const { return rules_ == ExamRules::strict; }
   /// Returns whether a setting of the machine is locked: in an exam under strict rules whose scenario locks it, until

@@ -45,10 +45,7 @@ void SetupWizard::begin(std::size_t step) {
 
 void SetupWizard::update(double now_s) {
   samples_.clear();
-  RehearsalTracker* const hand = sensor_.tracker().rehearsed();
-  if (hand) hand->follow(kSetupSteps[current_], step_->view());
   sensor_.poll(now_s, samples_);
-  rehearsal_ = hand ? hand->doing() : "";
   for (const SensorSample& sample : samples_) {
     const SensorSample seen = presses_.only_pressed(sample);
     if (!step_->view().done)
@@ -58,6 +55,10 @@ void SetupWizard::update(double now_s) {
     keep_if_done();
   }
   keep_if_done();  // a drawn face is done without a sample
+  if (RehearsalTracker* const hand = sensor_.tracker().rehearsed()) {
+    hand->follow(kSetupSteps[current_], step_->view());
+    rehearsal_ = hand->doing();
+  }
 }
 
 void SetupWizard::keep_if_done() {

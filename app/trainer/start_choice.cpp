@@ -72,8 +72,12 @@ std::string StartPage::why_not() const {
     case Task::first_scan:
       return why_no_learner();
     case Task::practice:
-      return why_no_learner().empty() ? why_no_tracker() : why_no_learner();
+      if (!why_no_learner().empty()) return why_no_learner();
+      if (scenario && is_rehearsal(tracker()))
+        return "The made-up hand takes no steps: choose Free practice, or another tracker on the right.";
+      return why_no_tracker();
     case Task::exam:
+      if (is_rehearsal(tracker())) return "The made-up hand takes no exam: choose another tracker on the right.";
       if (!why_no_learner().empty()) return why_no_learner();
       return why_no_exam().empty() ? why_no_tracker() : why_no_exam();
     case Task::patients:

@@ -302,6 +302,7 @@ void StartPage::read_runs() {
       problem_ = error.what();
     }
   }
+  std::vector<std::pair<std::int64_t, OfferedRun>> own;  // with the time since 1970, s
   for (std::size_t i = 0; i < std::min(attempts_.size(), kListedAttempts); ++i) {
     const AttemptSummary& attempt = attempts_[i];
     OfferedRun offered_run(attempt.title, summary_of(attempt));
@@ -309,17 +310,17 @@ void StartPage::read_runs() {
     offered_run.replay.attempt = attempt.number;
     if (const auto skilled = expert_of_.find(attempt.scenario_digest); skilled != expert_of_.end())
       offered_run.expert = skilled->second;
-    runs_.push_back(std::move(offered_run));
+    own.emplace_back(attempt.finished_ms / 1000, std::move(offered_run));
   }
-  std::vector<fs::path> recordings = files_in(options_.out, ".igs.mha");
-  std::ranges::stable_sort(recordings, std::ranges::greater(), changed_s);
-  for (const fs::path& log : recordings) {
+  for (const fs::path& log : files_in(options_.out, ".igs.mha")) {
     if (log.filename().string().ends_with("-images.igs.mha")) continue;  // beside a recording of the same run
     OfferedRun offered_run(log.filename().string(),
                            time_text(changed_s(log)) + ", recording in " + options_.out.string());
     offered_run.replay.log = log;
-    runs_.push_back(std::move(offered_run));
+    own.emplace_back(changed_s(log), std::move(offered_run));
   }
+  std::ranges::stable_sort(own, std::ranges::greater(), [](const auto& each) { return each.first; });
+  for (auto& [time_s, offered_run] : own) runs_.push_back(std::move(offered_run));
   for (OfferedRun& offered_run : bundled) {
     for (const OfferedScenario& offered : scenarios_)
       if (offered.file == offered_run.scenario && expert_of_[offered.digest] != offered_run.replay.log)
@@ -359,7 +360,7 @@ void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
 void StartPage::offer_tracker(const std::string& uri) {
   const auto same = [&](const OfferedTracker& offered) { return offered.uri == uri; };
   if (uri.empty() || std::ranges::any_of(trackers_, same)) return;
-  if (uri == kRehearsal)
+  if (is_rehearsal(uri))
     trackers_.push_back({uri, "Made-up hand, a rehearsal", FoundTracker::State::ready, "", true});
   else
     trackers_.push_back({uri, uri, FoundTracker::State::ready, "", has_sensor(uri), false});

@@ -63,6 +63,9 @@ struct OfferedRun {
 
 /// The tracker that stands in for one in a rehearsal of the set-up.
 inline constexpr const char* kRehearsal = "rehearsal:";
+inline bool is_rehearsal(std::string_view uri) {
+  return uri.starts_with(kRehearsal);
+}
 
 /// A tracker that can be chosen.
 struct OfferedTracker {

@@ -222,6 +222,8 @@ void Trainer::begin(std::shared_ptr<const LoadedCase> loaded_case, const Request
   if (in_exam()) refuse_second_exam(*loaded_case->scenario);
   auto session = std::make_unique<Session>(loaded_case, open, options_.predict_ms / 1e3,
                                            in_exam() ? ExamRules::strict : ExamRules::open);
+  if (in_exam() && !session->can_take_steps())
+    throw InputError(uri, "", "a made-up hand takes no exam", "name the tracker that the learner holds");
   if (in_exam() && std::as_const(*session).source().recording())
     throw InputError(uri, "", "a recorded scan is nobody's exam", "name the tracker that the learner holds");
   record_raw(*session, request);

@@ -79,7 +79,9 @@ void Trainer::remember(const StartPage& page) {
 
 /// Forgets a patient that cannot be used.
 void Trainer::forget_patient(const CaseSource& patient) {
-  if (std::erase(preferences_.patients, std::filesystem::absolute(path_of(patient))) > 0) keep_preferences();
+  const std::filesystem::path path = path_of(patient);
+  if (path.empty()) return;  // the built-in patient
+  if (std::erase(preferences_.patients, std::filesystem::absolute(path)) > 0) keep_preferences();
 }
 
 void Trainer::toggle_landmarks() {

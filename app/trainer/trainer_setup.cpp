@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 std::filesystem::path Trainer::own_calibration(const std::string& uri) const {
   // A rehearsal leaves the lab's own set-up alone.
-  return options_.out / (uri == kRehearsal ? "rehearsed_calibration.toml" : "calibration.toml");
+  return options_.out / (is_rehearsal(uri) ? "rehearsed_calibration.toml" : "calibration.toml");
 }
 
 void Trainer::find_calibration() {
@@ -58,6 +58,7 @@ void Trainer::find_calibration() {
 
 std::string Trainer::next_start() const {
   const std::string& uri = current_.tracker;
+  if (is_rehearsal(uri)) return "The made-up hand scans with it in free practice.";
   const bool plain = uri.find_first_of("?&* '\"$;") == std::string::npos;
   const std::string command = "insonate --tracker " + (plain ? uri : "'" + uri + "'");
   const std::filesystem::path file = options_.calibration.empty() ? own_calibration(uri) : options_.calibration;
@@ -79,8 +80,9 @@ Session::OpenTracker Trainer::opener(const std::string& uri, const LoadedCase& l
   calibration_warning_ = joined(calibration_warnings(calibration, tracker_identity(uri),
                                                      std::int64_t(std::time(nullptr)), options_.calibration_days));
   if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
-  return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string()] {
-    return std::make_unique<CalibratedTracker>(SensorTracker(open_tracker(sensor)), calibration, name);
+  return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string(),
+          surroundings = loaded_case.surroundings] {
+    return std::make_unique<CalibratedTracker>(SensorTracker(open_tracker(sensor, surroundings)), calibration, name);
   };
 }
 
@@ -161,6 +163,7 @@ void Trainer::end_setup() {
   if (is_own_mode && (from_start_page || !missing.empty())) {
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
+    if (missing.empty() && is_rehearsal(start_page()->tracker())) start_page()->scenario.reset();
     return;
   }
   if (is_own_mode) options_.mode = Mode::practice;

@@ -113,6 +113,13 @@ std::string AxisSigns::words() const {
   return text.empty() ? "no axis is mirrored" : "mirrored: " + text;
 }
 
+const std::array<AskedMove, 4>& asked_moves() {
+  static const glm::dvec3 right(-1, 0, 0), up(0, -1, 0), head(0, 0, 1);
+  static const std::array<AskedMove, 4> moves{
+      {{right, -up, right}, {right, -up, up}, {head, -up, head}, {up, right, up}}};
+  return moves;
+}
+
 Outcome<AxesFinding> check_axes(const AxesMoves& moves) {
   if (const auto refusal = why_unusable(moves)) return *refusal;
   const double as_it_is = misfit_deg(moves, {});

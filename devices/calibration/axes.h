@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <string>
 
 #include "devices/calibration/outcome.h"
@@ -34,6 +35,14 @@ struct AxesMoves {
   StraightMove to_head;  ///< still upright, rotated so that the marker points to the head; moved to the head
   StraightMove lying;    ///< laid on its side so that the marker points up; moved up
 };
+
+/// How the probe is held at the start of a move, and which way it goes: directions in the patient (LPS).
+struct AskedMove {
+  glm::dvec3 marker, beam, way;
+};
+
+/// Returns the moves that a set-up asks for, in the order of AxesMoves.
+const std::array<AskedMove, 4>& asked_moves();
 
 /// The result of check_axes().
 struct AxesFinding {

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kSeed = 1;
 constexpr double kNoise_mm = 0.15, kTouchError_mm = 1.5;
 
-const glm::dvec3 kRight(-1, 0, 0), kUp(0, -1, 0), kHead(0, 0, 1);
+const glm::dvec3 kRight(-1, 0, 0), kUp(0, -1, 0);
 
 Pose turned(double deg, const glm::dvec3& axis, const glm::dvec3& at) {
   return {glm::mat3_cast(glm::angleAxis(glm::radians(deg), glm::normalize(axis))), at};
@@ -86,7 +86,7 @@ double height_mm(double from_mm, double seconds) {
 }  // namespace
 
 RehearsalTracker::RehearsalTracker(const TrackerContext& body, bool raw)
-    : Tracker("made-up hand, for a rehearsal"),
+    : Tracker("made-up hand"),
       body_(body),
       placement_(body.start, raw),
       scanning_(kSeed, kRate_hz, body),
@@ -102,12 +102,7 @@ Pose RehearsalTracker::wanted() const {
   const Pose upright = held(kRight, -kUp, belly);
   const std::size_t part = task_->part;
   if (task_->step == "axes") {
-    struct Move {
-      glm::dvec3 marker, beam, way;
-    };
-    const std::array<Move, 4> moves{
-        {{kRight, -kUp, kRight}, {kRight, -kUp, kUp}, {kHead, -kUp, kHead}, {kUp, kRight, kUp}}};
-    const Move& move = moves[std::min<std::size_t>(part / 2, 3)];
+    const AskedMove& move = asked_moves()[std::min<std::size_t>(part / 2, 3)];
     return held(move.marker, move.beam, belly + 30.0 * kUp + (part % 2 == 1 ? 120.0 : 0.0) * move.way);
   }
   if (task_->step == "pivot") return touching(upright, kTip, kDimple);
@@ -161,7 +156,8 @@ std::string RehearsalTracker::doing() const {
   if (!is_there()) return "The made-up hand is on its way.";
   if (task_->step == "lag") return "The made-up hand strikes when you press the key.";
   if (task_->step == "pivot" && task_->reading) return "The made-up hand pivots.";
-  return "The made-up hand holds still: mark.";
+  if (task_->step != "axes" && task_->reading) return "The made-up hand holds still.";
+  return "The made-up hand is there: mark.";
 }
 
 Pose RehearsalTracker::pose_at(double time_s) const {

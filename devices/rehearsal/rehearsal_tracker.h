@@ -20,8 +20,8 @@ namespace insonate {
 
 /// A made-up lab in which a person rehearses the set-up without a tracker: a tracker's base, a probe with a sensor and
 /// a pointed tip, a dimple, a corner, and a mannequin that is a copy of the patient. A made-up hand holds the probe. It
-/// does what each step of the set-up asks for; the person sets the marks. Touches are off by up to 1.5 mm, and each
-/// position by 0.15 mm.
+/// does what each step of the set-up asks for; the person sets the marks. It touches a landmark to within 1.5 mm along
+/// each axis, the corner to within 0.2 mm, and the tracker's noise is within 0.15 mm.
 ///
 /// Until a set-up is followed, the hand scans as that of a SyntheticTracker, at 60 Hz in real time.
 class RehearsalTracker : public Tracker {
@@ -29,7 +29,8 @@ public:
   static constexpr double kRate_hz = 60;
   /// Time that the hand takes from one place to the next.
   static constexpr double kReach_s = 1.2;
-  /// Time from a mark to the blow that the tracker shows, in the step lag; the polling's own delay is added.
+  /// Time that the probe takes to fall on the key, in the step lag. The lag that is found is longer by the time from
+  /// the mark to the sample after the next follow().
   static constexpr double kFall_s = 0.08;
 
   /// @param raw  true: return the sensor's pose in the tracker's frame; false: place the probe by its first pose
@@ -39,7 +40,8 @@ public:
   bool live() const override { return true; }
   double clock_s(double now_s) const override { return start_s_ ? now_s - *start_s_ : 0.0; }
 
-  /// Tells the hand what the set-up asks for now. Call it before each poll during a set-up.
+  /// Tells the hand what the set-up asks for now. Call it during a set-up whenever the step has taken the samples of a
+  /// poll. What the hand does about it shows from the next sample on.
   /// @param step  of kSetupSteps
   void follow(std::string_view step, const SetupView& view);
   /// Returns whether the hand holds still where the step wants it.

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "scenarios/result_json.h"
 
 namespace insonate {
@@ -26,7 +28,12 @@ std::string first_difference(const std::string& then_json, const std::string& no
 }  // namespace
 
 std::string why_different(const std::string& score_json, ExamResult now, const std::string& name) {
-  const Provenance then = result_from_json(score_json, name).provenance;
+  const ExamResult stored = result_from_json(score_json, name);
+  const Provenance& then = stored.provenance;
+  // Older scores do not name the limits that kept a view from being held.
+  const auto names_limits = [](const auto& fact) { return fact.first == StepResult::kNotHeld; };
+  for (std::size_t i = 0; i < std::min(now.steps.size(), stored.steps.size()); ++i)
+    if (std::ranges::none_of(stored.steps[i].facts, names_limits)) std::erase_if(now.steps[i].facts, names_limits);
   now.provenance.program_version = then.program_version;
   now.provenance.mode = then.mode;
   now.provenance.log = then.log;

@@ -51,6 +51,13 @@ bool meets(const Tolerance& tolerance, const ViewValues& view) {
   return info(tolerance.metric).less_is_better ? value <= tolerance.limit : value >= tolerance.limit;
 }
 
+/// Returns a limit that a picture does not meet, and its value, as the end of a sentence.
+std::string lack(const Tolerance& limit, const ViewValues& view) {
+  return std::string(info(limit.metric).words) + ": " + in_words(limit.metric, view.of(limit.metric)) +
+         ", asked for: " + in_words(limit.metric, limit.limit) +
+         (info(limit.metric).less_is_better ? " or less" : " or more");
+}
+
 class FindViewRun : public StepRun {
 public:
   explicit FindViewRun(const FindView& asked) : asked_(asked) {}
@@ -84,10 +91,7 @@ public:
     if (within_tolerance_ || recent_.empty()) return "";
     const ViewValues& view = recent_.back().view;
     for (const Tolerance& t : asked_.tolerance)
-      if (!meets(t, view))
-        return std::string(info(t.metric).words) + ": " + in_words(t.metric, view.of(t.metric)) +
-               ", asked for: " + in_words(t.metric, t.limit) +
-               (info(t.metric).less_is_better ? " or less." : " or more.");
+      if (!meets(t, view)) return lack(t, view) + ".";
     return "";
   }
 
@@ -117,6 +121,11 @@ public:
     else
       add(mean, recent_.back().view, 1);
     result.judged = mean;
+    if (outcome == StepOutcome::held) return;
+    std::string missed;
+    for (const Tolerance& t : asked_.tolerance)
+      if (!meets(t, mean)) missed += (missed.empty() ? "" : "; ") + lack(t, mean);
+    if (!missed.empty()) result.facts.emplace_back(StepResult::kNotHeld, missed);
   }
 
 private:

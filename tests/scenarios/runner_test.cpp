@@ -100,6 +100,9 @@ TEST_CASE("who never shows the view runs out of time, is judged by the last seco
   REQUIRE(result.reasons.size() >= 3);
   CHECK(result.reasons[0].find("60 % are needed") != std::string::npos);
   CHECK(result.reasons[1].find("Step 1 (Ball): the view was not held long enough") != std::string::npos);
+  const std::string missed = "Distance of the target from the plane: 60.0 mm, asked for: 8.0 mm or less";
+  REQUIRE_FALSE(result.steps[0].facts.empty());
+  CHECK(result.steps[0].facts[0] == std::pair<std::string, std::string>{StepResult::kNotHeld, missed});
   CHECK(result.reasons[2].find("critical") != std::string::npos);
 }
 

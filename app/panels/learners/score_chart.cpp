@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -193,10 +194,16 @@ std::int64_t draw_score_chart(const Theme& theme, Rect where, const ScoreTrend& 
   draw_spreads(theme, axes, trend.spreads);
 
   ImDrawList* list = ImGui::GetWindowDrawList();
-  if (!group)
-    for (std::size_t i = 1; i < trend.points.size(); ++i)
-      list->AddLine(axes.at(trend.points[i - 1].ordinal, trend.points[i - 1].percent),
-                    axes.at(trend.points[i].ordinal, trend.points[i].percent), colour::kHovered, theme.px(1.5f));
+  if (!group) {
+    // A line joins attempts of one kind: an exam and a practice cannot be compared.
+    std::map<AttemptMode, const TrendPoint*> before;
+    for (const TrendPoint& point : trend.points) {
+      const TrendPoint* const last = std::exchange(before[point.mode], &point);
+      if (last)
+        list->AddLine(axes.at(last->ordinal, last->percent), axes.at(point.ordinal, point.percent), colour::kHovered,
+                      theme.px(1.5f));
+    }
+  }
   const float radius = std::clamp(plot.w / float(axes.attempts) * 0.4f, theme.px(2.5f), theme.px(group ? 4 : 6));
   const TrendPoint* nearest = nullptr;
   float nearest_px = theme.px(14);

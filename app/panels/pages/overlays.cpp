@@ -147,8 +147,8 @@ BriefingAnswer draw_briefing(const Theme& theme, const Rect& screen, const Scena
   draw(colour::kMuted, rules);
   sheet.take_top(gap);
   places["learner"] = sheet.take_top(theme.px(22));
-  draw_text(places["learner"], theme.strong, colour::kText,
-            learner.empty() ? "Nobody is named as the learner." : "Learner: " + learner);
+  draw_text(places["learner"], learner.empty() ? theme.text : theme.strong, colour::kText,
+            "Learner: " + (learner.empty() ? "anonymous" : learner));
   Rect buttons = sheet.take_bottom(theme.px(38));
   BriefingAnswer answer = BriefingAnswer::none;
   places["start"] = buttons.take_right(theme.px(160));

@@ -59,7 +59,7 @@ void draw_top(const Theme& theme, const Rect& panel, const Replay& replay, const
   if (!scenario) {
     draw_text(upper, theme.heading, colour::kText, "A scan without an exam");
     draw_text(lower, theme.text, colour::kMuted,
-              "Nothing is measured. With steps, which the start page offers, the distance to their views is shown.");
+              "Nothing is scored. To compare it with an exam's views, choose that exam for it on the start page.");
     return;
   }
   const Step& step = scenario->steps[number];

@@ -192,9 +192,10 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   places[steps ? "practice" : "steps"] = first;
   if (!steps) {
     const auto& scenario = session.loaded_case().scenario;
-    if (button(theme, "steps", first, "Steps", ButtonKind::normal, scenario.has_value(),
-               scenario ? "Scored steps: the briefing of \"" + scenario->title + "\", and then Start"
-                        : "This patient has no scored steps"))
+    if (button(theme, "steps", first, "Steps", ButtonKind::normal, session.can_take_steps(),
+               scenario && !session.can_take_steps() ? "The made-up hand takes no steps"
+               : scenario ? "Scored steps: the briefing of \"" + scenario->title + "\", and then Start"
+                          : "This patient has no scored steps"))
       request = ConsoleRequest::brief;
   } else if (button(theme, "practice", first, "Practice", ButtonKind::normal,
                     session.loaded_case().scenario.has_value() && !session.strict(),

@@ -83,7 +83,7 @@ void draw_tracker(const Theme& theme, const Rect& where, const Session& session)
 
 /// How far the step is, in a word or two.
 std::string progress_text(const LiveExam& live, const StepWords& words) {
-  if (live.finished) return "Done";
+  if (live.finished) return "Finished";
   if (live.within_tolerance) return words.on_target;
   if (words.shows_progress && live.counts_as_done) return "Go on when ready";
   if (words.shows_progress && live.hold_share > 0) return std::to_string(int(100 * live.hold_share)) + " % done";

@@ -177,7 +177,9 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   if (button(theme, "open_report", next(), "Open the report", ButtonKind::normal, files.has_value(),
              "Every step and criterion with its reason, pictures and the probe's path, in the browser"))
     answer = ScoreAnswer::open_report;
-  if (!watched && button(theme, "leave_sheet", next(), "Start page")) answer = ScoreAnswer::leave;
+  if (!watched && button(theme, "leave_sheet", next(), "Start page",
+                         result.passed && !once ? ButtonKind::primary : ButtonKind::normal))
+    answer = ScoreAnswer::leave;
   if (once) {
     end_overlay();
     return answer;
@@ -188,7 +190,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   if (watched) {
     if (button(theme, "again", next(), "Watch again")) answer = ScoreAnswer::again;
     if (button(theme, "own_try", next(), "Try it yourself", ButtonKind::primary)) answer = ScoreAnswer::own_try;
-  } else if (button(theme, "again", next(), "Try again", ButtonKind::primary)) {
+  } else if (button(theme, "again", next(), "Try again", result.passed ? ButtonKind::normal : ButtonKind::primary)) {
     answer = ScoreAnswer::again;
   }
   end_overlay();

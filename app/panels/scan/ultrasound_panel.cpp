@@ -136,7 +136,8 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
 
 /// @param prompts  whether it says what to do next
 std::string state_text(const Session& session, const PictureTools& tools, bool prompts) {
-  if (session.stopped_at_edge()) return kStopWords;
+  // While a button is down, as when the probe is dragged, the 3D view says it.
+  if (session.stopped_at_edge() && !ImGui::IsMouseDown(0)) return kStopWords;
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
   return prompts && PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }

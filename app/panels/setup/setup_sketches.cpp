@@ -142,12 +142,8 @@ void ghost(const Theme& theme, const SpaceSketch& sketch, const Pose& patient_fr
 
 /// Draws the moves that show which way is which, on the patient who lies there, seen from the foot end of the table.
 void draw_axes(const Theme& theme, const Rect& area, const glm::dvec3& belly, Pictures& pictures, std::size_t part) {
-  struct Move {
-    glm::dvec3 marker, beam, way;
-  };
-  const glm::dvec3 right(-1, 0, 0), up(0, -1, 0), head(0, 0, 1);
-  const std::array<Move, 4> moves{{{right, -up, right}, {right, -up, up}, {head, -up, head}, {up, right, up}}};
-  const Move& move = moves[std::min<std::size_t>(part / 2, 3)];
+  const glm::dvec3 up(0, -1, 0);
+  const AskedMove& move = asked_moves()[std::min<std::size_t>(part / 2, 3)];
   view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
   camera.yaw_deg = -18;
   camera.pitch_deg = -42;
@@ -168,7 +164,7 @@ void draw_axes(const Theme& theme, const Rect& area, const glm::dvec3& belly, Pi
   }
   const glm::dvec3 size = glm::dvec3(pictures.grid().size) * pictures.grid().spacing;
   const glm::dvec3 middle = pictures.grid().centre();
-  label(theme, sketch.at({middle.x, belly.y - 12, middle.z + 0.5 * size.z}), "to the head");
+  label(theme, sketch.at({middle.x + 0.4 * size.x, belly.y - 12, middle.z + 0.5 * size.z}), "to the head");
   label(theme, sketch.at({middle.x - 0.5 * size.x, middle.y, middle.z - 0.25 * size.z}), "patient's right");
 }
 

@@ -304,7 +304,9 @@ StartAnswer draw_task(const Theme& theme, const Rect& panel, StartPage& page, st
           theme, rest, colour::kText,
           "Hold the probe yourself. The guide leads you in three small steps: find the liver, find the bladder, and "
           "point at it in the frozen picture.");
-      paragraph(theme, rest, colour::kMuted, "The mouse and the keyboard move the probe. You need nothing else.");
+      paragraph(theme, rest, colour::kMuted,
+                "The mouse and the keyboard move the probe. You need nothing else. The green dot on the probe is its "
+                "marker: the picture shows that side below its own dot.");
       draw_keys(theme, rest,
                 {{"Drag the probe", "in the 3D view: put it somewhere else"},
                  {"Arrow keys", "slide it: up to the head, right to the patient's left"},

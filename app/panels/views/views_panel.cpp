@@ -99,7 +99,7 @@ bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
     session->move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
   }
   draw_title(theme, panel, "Patient");
-  if (session && session->stopped_at_edge()) draw_stop(theme, panel);
+  if (session && session->stopped_at_edge() && ImGui::IsMouseDown(0)) draw_stop(theme, panel);
   draw_orientation(theme, panel, camera);
   return double_clicked;
 }

@@ -3,9 +3,25 @@
 #include <catch2/catch.hpp>
 
 #include "app/session/session.h"
+#include "devices/registry.h"
 #include "tests/app/session/tiny_session.h"
 
 using namespace insonate;
+
+TEST_CASE("the made-up hand of a rehearsal takes no steps, and the learner's own hand does") {
+  Session session(
+      tiny_loaded_case(), [] { return open_tracker("rehearsal:"); }, 0);
+  CHECK_FALSE(session.can_take_steps());
+  CHECK(session.activity() == Activity::practice);
+  session.start_over(Activity::exam);
+  CHECK(session.activity() == Activity::practice);
+  session.take_probe();
+  CHECK(session.can_take_steps());
+  session.start_over(Activity::exam);
+  CHECK(session.activity() == Activity::exam);
+  session.give_back_probe();
+  CHECK(session.activity() == Activity::practice);
+}
 
 TEST_CASE("under strict rules an exam is taken once and as it is") {
   std::vector<ProbeSample> coming;

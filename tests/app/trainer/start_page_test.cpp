@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "app/trainer/folder_list.h"
 #include "devices/sequence/sequence.h"
 #include "scenarios/action.h"
 #include "sim/core/input_error.h"
@@ -115,6 +116,21 @@ TEST_CASE("each task of the start page turns into what the command line would sa
   CHECK(later.opened_patients() == opened);  // and not twice
   CHECK(later.patients()[later.patient].name == "water.mha");
 
+  INFO("recordings are listed newest first, with their times, and before the bundled scans");
+  const std::filesystem::path out = folder / "runs";
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (const char* name : {"a.igs.mha", "b.igs.mha", "c.igs.mha"}) write_file(out / name, "");
+  std::filesystem::last_write_time(out / "b.igs.mha", now - std::chrono::hours(48));
+  std::filesystem::last_write_time(out / "c.igs.mha", now + std::chrono::hours(1));
+  Options with_runs;
+  with_runs.out = out;
+  const StartPage of_runs(with_runs, nullptr);
+  REQUIRE(of_runs.runs().size() > 3);
+  CHECK(of_runs.runs()[0].name == "c.igs.mha");
+  CHECK(of_runs.runs()[1].name == "a.igs.mha");
+  CHECK(of_runs.runs()[2].name == "b.igs.mha");
+  CHECK(of_runs.runs()[2].about.find(time_text(changed_s(out / "b.igs.mha"))) == 0);
+
   INFO("a recording that names its patient is replayed on that patient");
   const auto replay_of = [&](const std::string& recorded) {
     std::vector<ProbeSample> samples(2);
@@ -157,6 +173,16 @@ TEST_CASE("each task of the start page turns into what the command line would sa
 
   page.task = Task::setup;
   CHECK(page.why_not().find("no sensor") != std::string::npos);
+  page.choose_tracker(kRehearsal);
+  CHECK(page.why_not() == "");
+  page.task = Task::exam;
+  CHECK(page.why_not().find("made-up hand takes no exam") != std::string::npos);
+  page.task = Task::practice;
+  page.scenario = 0;
+  CHECK(page.why_not().find("choose Free practice") != std::string::npos);
+  page.scenario.reset();
+  CHECK(page.why_not() == "");
+  page.task = Task::setup;
   page.choose_tracker("igtl://localhost/Probe");
   CHECK(page.trackers().front().checked);
   CHECK_FALSE(page.trackers().back().checked);  // nobody has asked the network

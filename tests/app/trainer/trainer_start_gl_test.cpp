@@ -236,6 +236,27 @@ TEST_CASE("a command line that names nothing usable leads to the start page, wit
   CHECK(trainer.start_page());
 }
 
+TEST_CASE("a tracker that has gone since it was chosen leads back to the start page, with the reason") {
+  const Patience patience;
+  const test::TestContext context;
+  const TrainerFolder folder;
+  Options options;
+  options.out = folder.path / "out";
+  Trainer trainer(options);
+  trainer.open_from_options();
+  REQUIRE(trainer.start_page());
+  std::vector<ProbeSample> samples(2);
+  samples[1].time_s = 1;
+  const fs::path log = folder.file("sensor.igs.mha", write_sequence(samples));
+  trainer.start_page()->choose_tracker("replay:" + log.string());
+  trainer.start_page()->task = Task::setup;
+  fs::remove(log);
+  begin(trainer);
+  REQUIRE(trainer.problems().size() == 1);
+  CHECK(trainer.problems().front().find("sensor.igs.mha") != std::string::npos);
+  CHECK(trainer.start_page());
+}
+
 TEST_CASE("a CT is listed once, and no longer when it cannot be used") {
   const Patience patience;
   const test::TestContext context;

@@ -5,7 +5,7 @@
 
 # Marks once the made-up hand is where the step wants it.
 mark() {
-  await "the hand comes for $1" contains setup_rehearsal "holds still"
+  await "the hand comes for $1" contains setup_rehearsal "is there"
   xdotool key space
 }
 
@@ -64,9 +64,12 @@ xdotool key space
 await "the start page is there" is start_task practice
 [ -f "$work/out/rehearsed_calibration.toml" ] || fail "the set-up was not kept"
 [ ! -f "$work/out/calibration.toml" ] || fail "a rehearsal took the place of a lab's set-up"
+contains start_why_not '""' || fail "free practice is not chosen: $(value start_why_not)"
+click_on task_exam
+await "an exam refuses the made-up hand" contains start_why_not "takes no exam"
+click_on task_practice
 xdotool key Return
-await "the briefing is shown" is overlay briefing
-xdotool key Return
+await "free practice begins" is activity practice
 await "the probe is seen" is_not face_x ""
 await "a picture is drawn" is_not pictures_drawn 0
 is calibration_warning "" || fail "a warning: $(value calibration_warning)"

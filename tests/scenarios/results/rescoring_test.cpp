@@ -18,6 +18,14 @@ TEST_CASE("a score is the same to the bit or it is said why not") {
   now.provenance.log = "elsewhere.igs.mha";
   CHECK(why_different(json, now, "x").empty());
 
+  INFO("an older score does not name the limits that were missed, a newer one may");
+  now.steps[0].facts.emplace_back(StepResult::kNotHeld, "5 mm");
+  CHECK(why_different(json, now, "x").empty());
+  const std::string newer = to_json(now);
+  now.steps[0].facts.back().second = "6 mm";
+  CHECK(why_different(newer, now, "x").find("steps/0/facts/") == 0);
+  now = then;
+
   now.motion.path_length_mm = std::nextafter(now.motion.path_length_mm, 1e9);
   CHECK(why_different(json, now, "x").find("motion/path_length_mm: ") == 0);
   now = then;
