@@ -313,7 +313,10 @@ void Screen::draw_names_button(Trainer& trainer, Rect& row) {
   if (button(theme_, "names", where, "Names", shown && may ? ButtonKind::chosen : ButtonKind::normal, may,
              "Shows the landmarks of this patient with their names  (N)"))
     trainer.toggle_landmarks();
-  if (!may) draw_tooltip(theme_, where, "Names are help: in scored steps they are shown with the guide  (G)");
+  if (!may)
+    draw_tooltip(theme_, where,
+                 trainer.session()->strict() ? "Names are help, which an exam has not"
+                                             : "Names are help: in scored steps they are shown with the guide  (G)");
 }
 
 /// Whether the patient's inside may be seen.

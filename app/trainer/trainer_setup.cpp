@@ -79,6 +79,10 @@ Session::OpenTracker Trainer::opener(const std::string& uri, const LoadedCase& l
   const Calibration calibration = read_complete_calibration(options_.calibration);
   calibration_warning_ = joined(calibration_warnings(calibration, tracker_identity(uri),
                                                      std::int64_t(std::time(nullptr)), options_.calibration_days));
+  const LandmarkList built_in = read_landmark_list(assets_folder() / "calibration" / "abdomen.toml");
+  if (calibration.mannequin->value.patient == built_in.patient && loaded_case.subject.name != built_in.patient)
+    calibration_warning_ += std::string(calibration_warning_.empty() ? "" : " ") +
+                            "The set-up is of the built-in patient: on this one the probe lies elsewhere.";
   if (!calibration_warning_.empty()) std::fprintf(stderr, "insonate: %s\n", calibration_warning_.c_str());
   return [sensor = sensor_uri(uri, true), calibration, name = options_.calibration.filename().string(),
           surroundings = loaded_case.surroundings] {

@@ -103,7 +103,7 @@ std::string best_of(const LearnerLine& learner) {
   std::string text;
   for (const auto& [mode, percent] : learner.best_percent)
     if (mode != AttemptMode::recording || learner.best_percent.size() == 1)
-      text += (text.empty() ? "best " : ", ") + name_of(mode) + " " + fixed(percent, 1);
+      text += (text.empty() ? "" : ", ") + name_of(mode) + " " + fixed(percent, 1);
   return text + " %";
 }
 

@@ -58,8 +58,9 @@ void draw_top(const Theme& theme, const Rect& panel, const Replay& replay, const
   const Rect lower{rest.x, upper.y + upper.h, rest.w, theme.px(22)};
   if (!scenario) {
     draw_text(upper, theme.heading, colour::kText, "A scan without an exam");
-    draw_text(lower, theme.text, colour::kMuted,
-              "Nothing is scored. To compare it with an exam's views, choose that exam for it on the start page.");
+    draw_text(
+        lower, theme.text, colour::kMuted,
+        "Nothing is scored. A scan of an exam's patient can be compared with its views: choose it on the start page.");
     return;
   }
   const Step& step = scenario->steps[number];

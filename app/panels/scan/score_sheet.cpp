@@ -85,6 +85,7 @@ void draw_fact(const Theme& theme, Rect row, const std::pair<std::string, std::s
   const std::string name = in_words(fact.first) + ": ";
   draw_text(row.take_left(text_width(theme.small_text, name) + 1), theme.small_text, colour::kMuted, name);
   draw_text(row, theme.small_text, colour::kText, fact.second);
+  if (text_width(theme.small_text, fact.second) > row.w) draw_tooltip(theme, row, fact.second);
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {

@@ -228,7 +228,7 @@ LookAnswer LookPanel::draw(const Theme& theme, const Rect& panel, PatientLook& l
       if (chosen && look.is_edited()) name += " *";
       if (button(theme, id.c_str(), places[id] = row.take_left(width), name,
                  chosen ? ButtonKind::chosen : ButtonKind::normal, true,
-                 index ? "Shows the CT itself with this transfer function"
+                 index ? "Shows the CT itself with this transfer function; organs and vessels need contrast medium"
                        : "Shows labelled organs and bone as surfaces, and the skin as glass")) {
         look.choose(index);
         point_.reset();

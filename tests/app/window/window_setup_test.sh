@@ -15,6 +15,7 @@ echo "an old calibration is used and warned of"
 await "the session starts" is activity practice
 await "the probe is seen" is_not face_x ""
 contains calibration_warning "8 days old" || fail "no warning: $(value calibration_warning)"
+contains calibration_warning "of the built-in patient" || fail "no warning: $(value calibration_warning)"
 picture warning
 
 echo "a click opens the set-up at the first step that is to be made, a click on a step goes to it"
