@@ -85,6 +85,17 @@ std::size_t flood(const Box& box, const std::vector<std::size_t>& seeds, std::ve
   return reached;
 }
 
+/// Returns whether `passes` holds for one of the six neighbours of a voxel.
+template <typename Passes>
+bool touches(const Box& box, const glm::ivec3& voxel, const Passes& passes) {
+  const std::size_t at = box.offset(voxel.x, voxel.y, voxel.z);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (voxel[axis] > 0 && passes(at - box.stride(axis))) return true;
+    if (voxel[axis] + 1 < box.size[axis] && passes(at + box.stride(axis))) return true;
+  }
+  return false;
+}
+
 /// Makes the body solid: gas within it counts as body, and objects that are not joined to it are removed.
 void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
   const Box box{classes.size};
@@ -107,10 +118,17 @@ void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
           rim.push_back(box.offset(p.x, p.y, p.z));
         }
   }
-  enum : std::uint8_t { kUnknown, kAround, kPart, kLargest };
+  enum : std::uint8_t { kUnknown, kAround, kEdge, kPart };
   std::vector<std::uint8_t> marks(box.count(), kUnknown);
   flood(box, rim, marks, kAround, is_air);
 
+  // A sheet on which the patient lies touches the body and is thinner than any part of it: with the outermost voxels
+  // taken away, nothing joins the two.
+  const std::vector<std::uint8_t> around = marks;
+  box.for_each([&](int x, int y, int z, std::size_t at) {
+    if (!around[at] && touches(box, {x, y, z}, [&](std::size_t beside) { return around[beside] == kAround; }))
+      marks[at] = kEdge;
+  });
   std::size_t largest = 0, seed = 0;
   for (std::size_t at = 0; at < marks.size(); ++at)
     if (!marks[at] && is_body(at))
@@ -121,6 +139,14 @@ void keep_body(const glm::dmat3& direction, TissueClasses& classes) {
   if (!largest) return;
   std::vector<std::uint8_t> kept(box.count(), 0);
   flood(box, {seed}, kept, 1, [&](std::size_t at) { return marks[at] == kPart; });
+  // The outermost voxels again. At a corner they are two deep.
+  for (int times = 0; times < 2; ++times) {
+    const std::vector<std::uint8_t> before = kept;
+    box.for_each([&](int x, int y, int z, std::size_t at) {
+      if (marks[at] == kEdge && touches(box, {x, y, z}, [&](std::size_t beside) { return before[beside] == 1; }))
+        kept[at] = 1;
+    });
+  }
 
   // Partial volume stays on both sides of the surface. The surface thus keeps its true position, not that of a voxel's
   // face.

@@ -28,8 +28,8 @@ struct TissueClasses {
 };
 
 /// Returns the classes of a CT. Labels define organs. Density also defines bone, so that a CT without labels shows its
-/// skeleton. The body is the largest object that is not connected to the surrounding air; neither the scanner's table
-/// nor gas in the bowel has a skin.
+/// skeleton. The body is the largest object that is not connected to the surrounding air, without sheets of up to two
+/// voxels that touch it; neither the scanner's table nor gas in the bowel has a skin.
 TissueClasses classify_tissue(const Volume<std::int16_t>& ct, const Volume<std::uint8_t>& labels,
                               const OrganColours& colours);
 

@@ -60,6 +60,26 @@ TEST_CASE("a body is solid, with its gas, and without the table it lies on") {
   CHECK(classes.tissue[at_mm(classes, {45, 83, 45})][3] == 0);
 }
 
+TEST_CASE("a thin sheet that touches the body is left out but for its rim, and the body stays whole") {
+  Patient patient;
+  const TissueClasses before = classify_tissue(patient.ct, patient.labels, patient.colours);
+  const auto is_sheet = [](const glm::ivec3& v) { return v.y >= 50 && v.y < 54; };  // two voxels of the classes
+  for (int z = 0; z < patient.ct.grid.size.z; ++z)
+    for (int y = 0; y < patient.ct.grid.size.y; ++y)
+      for (int x = 0; x < patient.ct.grid.size.x; ++x)
+        if (std::int16_t& hu = patient.ct.voxels[patient.ct.grid.offset({x, y, z})]; is_sheet({x, y, z}))
+          hu = std::max<std::int16_t>(hu, -50);
+  const TissueClasses classes = classify_tissue(patient.ct, patient.labels, patient.colours);
+  CHECK(classes.body[at_mm(classes, {3, 52, 45})][1] == 0);  // far out on the sheet
+  int changed = 0;
+  for (int z = 6; z < 84; z += 2)
+    for (int y = 6; y < 84; y += 2)
+      for (int x = 6; x < 84; x += 2)
+        if (before.body[at_mm(before, {x, y, z})][1] == 255)
+          changed += classes.body[at_mm(classes, {x, y, z})][1] != 255;
+  CHECK(changed == 0);
+}
+
 TEST_CASE("organs come from labels and bone from its density") {
   const Patient patient;
   const TissueClasses classes = classify_tissue(patient.ct, patient.labels, patient.colours);
