@@ -413,7 +413,7 @@ void Keyboard::press(const KeyEvent& pressed, Trainer& trainer, ui::Screen& scre
       if (repeated) break;
       if (session.strict())
         screen.show_note(session.result() ? "The exam is over: practise it to see the guide"
-                                          : "This exam counts: there is no guide in it");
+                                          : "This exam counts: it has no guide");
       else if (!trainer.guide().can_lead(session))
         screen.show_note("The guide leads to views, and this step asks for none");
       else

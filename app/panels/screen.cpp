@@ -315,7 +315,7 @@ void Screen::draw_names_button(Trainer& trainer, Rect& row) {
     trainer.toggle_landmarks();
   if (!may)
     draw_tooltip(theme_, where,
-                 trainer.session()->strict() ? "Names are help, which an exam has not"
+                 trainer.session()->strict() ? "Names are help: an exam does not show them"
                                              : "Names are help: in scored steps they are shown with the guide  (G)");
 }
 
