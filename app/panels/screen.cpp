@@ -441,8 +441,8 @@ void Screen::draw_ct_views(Trainer& trainer, const Guiding* guiding) {
 
 /// An overlay hides the clock, so it says that the time does not stand still.
 void Screen::draw_time_runs_on(const Session& session) {
-  const std::string_view text =
-      session.strict() ? "Time runs on: this exam counts" : "Time runs on: the tracker goes on measuring";
+  const std::string_view text = session.strict() ? "Time runs on: this exam counts"
+                                                 : "Time runs on: a tracker is connected, and it does not wait";
   const Rect plate{std::round(screen_.w - text_width(theme_.strong, text)) / 2 - theme_.px(12), theme_.px(6),
                    text_width(theme_.strong, text) + theme_.px(24), theme_.px(30)};
   ImDrawList* list = ImGui::GetForegroundDrawList();

@@ -46,6 +46,18 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
   return found;
 }
 
+/// Throws InputError if the exam cannot be taken on this patient. On a patient that was chosen beside the exam, one
+/// sentence takes the place of a list of mistakes, because the exam itself is right.
+void check_exam(const Scenario& exam, const Case& subject, bool own_patient) {
+  const auto lacks_view = [&](const Step& step) { return step.view.empty() || !subject.find_view(step.view); };
+  const bool any_view = std::ranges::any_of(exam.steps, [](const Step& step) { return !step.view.empty(); });
+  if (!own_patient && any_view && std::ranges::all_of(exam.steps, lacks_view))
+    throw InputError(exam.file.string(), "",
+                     "'" + exam.title + "' is made for another patient: '" + subject.name + "' has none of its views",
+                     "choose steps that are made for this patient, or none");
+  check_against_case(exam, subject);
+}
+
 }  // namespace
 
 std::string recorded_patient(const Recording& recording) {
@@ -96,7 +108,8 @@ LoadedCase load_case(const CaseSource& source, const LoadProgress& progress) {
   loaded_case.patient = source.ct.empty() && source.case_folder.empty()
                             ? patient_words(loaded_case.subject.name, *loaded_case.scenario)
                             : loaded_case.subject.name.substr(0, Action::kLongestText);
-  if (loaded_case.scenario) check_against_case(*loaded_case.scenario, loaded_case.subject);
+  if (loaded_case.scenario)
+    check_exam(*loaded_case.scenario, loaded_case.subject, source.ct.empty() && source.case_folder.empty());
 
   progress("Working out what the sound will meet", 0);
   loaded_case.acoustic = make_acoustic_volume(loaded_case.subject.ct, loaded_case.subject.labels,
@@ -120,7 +133,7 @@ std::shared_ptr<const LoadedCase> with_exam_of(const CaseSource& source, std::sh
   std::optional<Scenario> exam = read_exam(source);
   const std::optional<Scenario>& before = patient->scenario;
   if (exam && before && exam->digest == before->digest && exam->seed == before->seed) return patient;
-  if (exam) check_against_case(*exam, patient->subject);
+  if (exam) check_exam(*exam, patient->subject, source.ct.empty() && source.case_folder.empty());
   auto same = std::make_shared<LoadedCase>(*patient);
   same->scenario = std::move(exam);
   return same;

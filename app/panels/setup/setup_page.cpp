@@ -140,8 +140,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
     wizard.undo();
   if (next("close", 130, "Close  (Esc)")) close = true;
   if (kSetupSteps[wizard.current()] == "landmarks" && wizard.can_be_moved() &&
-      next("moved", 190, wizard.moved() ? "Only moved: find again" : "It was only moved",
-           wizard.moved() ? ButtonKind::chosen : ButtonKind::normal))
+      next("moved", 270, "Only mannequin or base moved", wizard.moved() ? ButtonKind::chosen : ButtonKind::normal))
     wizard.set_moved(!wizard.moved());
   draw_text(buttons, theme.small_text, heard ? colour::kMuted : colour::kAmber,
             heard ? "Each finished step is kept in " + wizard.file().string()

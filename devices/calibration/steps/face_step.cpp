@@ -58,8 +58,10 @@ void FaceStep::finish() {
 }
 
 std::string FaceStep::result() const {
-  return formatted("face and handle miss the right angle by %.1f degrees; the middle lies %.1f mm off the ends' middle",
-                   found_.skew_deg, found_.off_middle_mm);
+  return formatted(
+      "face and handle are %.1f degrees off a right angle; the touched middle lies %.1f mm from halfway between the "
+      "ends",
+      found_.skew_deg, found_.off_middle_mm);
 }
 
 void FaceStep::store(Calibration& calibration, std::int64_t now_s) const {

@@ -61,10 +61,13 @@ void LandmarkStep::finish() {
 }
 
 std::string LandmarkStep::result() const {
+  std::string checked;
+  for (const LandmarkPair& pair : pairs_)
+    if (pair.held_out) checked += (checked.empty() ? "" : ", ") + pair.name;
   return formatted(
-      "accuracy %.1f mm, where the landmark that was held out should be; the others miss by %.1f mm, %s most "
-      "(%.1f mm)",
-      found_.accuracy_mm, found_.residual_mm, found_.worst.c_str(), found_.worst_mm);
+      "accuracy %.1f mm, the error at a landmark that only checks the fit (%s); the fitted ones are %.1f mm off (RMS), "
+      "%s most (%.1f mm)",
+      found_.accuracy_mm, checked.c_str(), found_.residual_mm, found_.worst.c_str(), found_.worst_mm);
 }
 
 void LandmarkStep::store(Calibration& calibration, std::int64_t now_s) const {

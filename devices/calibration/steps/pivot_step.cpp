@@ -86,8 +86,10 @@ void PivotStep::ask(SetupView& view) const {
 }
 
 std::string PivotStep::result() const {
-  return formatted("residual %.2f mm over %zu poses (%zu rejected); the tip is known to %.2f mm", found_.residual_mm,
-                   found_.used, found_.rejected, found_.tip_sd_mm);
+  return formatted(
+      "residual %.2f mm over %zu poses (%zu rejected), where below 1 mm is good; the tip's place is uncertain by %.2f "
+      "mm",
+      found_.residual_mm, found_.used, found_.rejected, found_.tip_sd_mm);
 }
 
 void PivotStep::store(Calibration& calibration, std::int64_t now_s) const {

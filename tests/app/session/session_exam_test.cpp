@@ -130,3 +130,18 @@ TEST_CASE("an exam under strict rules that nobody has begun is not handed in") {
   session.start_over();  // nothing was seen of it yet
   CHECK(session.activity() == Activity::exam);
 }
+
+TEST_CASE("an exam on a patient that has none of its views is refused in one sentence, a mistake with its place") {
+  CaseSource source;
+  source.ct = "chosen.nii.gz";
+  source.kept = parse_scenario(kTinyScenario, "exam.toml");
+  const auto own = tiny_loaded_case(false);
+  CHECK(with_exam_of(source, own)->scenario->title == "Find the ball");
+  const auto other = std::make_shared<LoadedCase>(*own);
+  other->subject.views.clear();
+  CHECK_THROWS_WITH(with_exam_of(source, other), Catch::Contains("'Find the ball' is made for another patient") &&
+                                                     Catch::Contains("choose steps that are made for this patient"));
+  INFO("on its own patient, the scenario's author has made a mistake");
+  source.ct.clear();
+  CHECK_THROWS_WITH(with_exam_of(source, other), Catch::Contains("names the view 'ball'"));
+}
