@@ -85,7 +85,7 @@ std::string SweepFlaw::words() const {
       if (formatted("%.1f", begin_s) == formatted("%.1f", end_s)) return formatted("too fast at %.1f s", begin_s);
       return formatted("too fast between %.1f s and %.1f s", begin_s, end_s);
     case Kind::gap:
-      return formatted("gap of %.1f mm at %.0f mm", size_mm, at_mm);
+      return formatted("gap of %.1f mm at %.0f mm", size_mm, std::round(at_mm) + 0.0);  // -0 as 0
     case Kind::turned_back:
       break;
   }

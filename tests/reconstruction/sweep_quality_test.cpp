@@ -100,6 +100,10 @@ TEST_CASE("missing pictures are a gap, named by where it lies") {
         std::vector<std::string>{"gap of 1.6 mm at 40 mm", "gap of 6.0 mm at 50 mm", "gap of 6.0 mm at 56 mm"});
 }
 
+TEST_CASE("a gap just before the middle of the sweep lies at 0 mm, not at -0") {
+  CHECK(SweepFlaw{SweepFlaw::Kind::gap, 0, 0, -0.3, 7.3}.words() == "gap of 7.3 mm at 0 mm");
+}
+
 TEST_CASE("a rest without pictures is not a gap") {
   Hand hand;
   hand.go(20, 0.8);
