@@ -44,6 +44,7 @@ void SetupWizard::begin(std::size_t step) {
 }
 
 void SetupWizard::update(double now_s) {
+  now_s_ = now_s;
   samples_.clear();
   sensor_.poll(now_s, samples_);
   for (const SensorSample& sample : samples_) {
@@ -64,6 +65,7 @@ void SetupWizard::update(double now_s) {
 void SetupWizard::keep_if_done() {
   if (kept_ || !step_->view().done) return;
   kept_ = true;
+  kept_s_ = now_s_;
   step_->store(calibration_, std::int64_t(std::time(nullptr)));
   write_calibration(file_, calibration_);
 }
@@ -75,7 +77,13 @@ void SetupWizard::mark(double now_s) {
     step_->mark(sensor_.tracker().clock_s(now_s));
 }
 
+bool SetupWizard::strikes_on() const {
+  constexpr double kUnread_s = 3;  // longer than the pause between two blows
+  return kSetupSteps[current_] == "lag" && now_s_ - kept_s_ < kUnread_s;
+}
+
 void SetupWizard::go_on() {
+  if (strikes_on()) return;
   if (current_ + 1 == kSetupSteps.size())
     finished_ = true;
   else

@@ -63,6 +63,8 @@ private:
   void begin(std::size_t step);
   void keep_if_done();
   void go_on();
+  /// Returns whether the blows of the last step may still be coming. They would close the page before it is read.
+  bool strikes_on() const;
 
   SensorTracker sensor_;
   Calibration calibration_;
@@ -71,6 +73,7 @@ private:
   std::unique_ptr<SetupStep> step_;
   std::size_t current_ = 0;
   bool kept_ = false, finished_ = false;
+  double now_s_ = 0, kept_s_ = 0;  ///< of update(), and when the step was done
   ButtonPresses presses_;
   std::vector<SensorSample> samples_;
   std::string rehearsal_;

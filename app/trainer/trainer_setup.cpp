@@ -44,8 +44,7 @@ void Trainer::find_calibration() {
     const Calibration calibration = read_complete_calibration(file);
     if (calibration.tracker == tracker_identity(options_.tracker)) {
       options_.calibration = file;
-      std::fprintf(stderr, "insonate: the probe is placed by the set-up in %s, which --calibration would name\n",
-                   file.c_str());
+      std::fprintf(stderr, "insonate: uses the set-up in %s; --calibration FILE uses another\n", file.c_str());
       return;
     }
     why_not_calibrated_ =

@@ -105,6 +105,16 @@ void OpenDialog::draw_field(const Theme& theme, const Rect& field) {
   ImGui::PopFont();
 }
 
+void OpenDialog::choose_by_keys() {
+  const int by = int(ImGui::IsKeyPressed(ImGuiKey_DownArrow)) - int(ImGui::IsKeyPressed(ImGuiKey_UpArrow));
+  if (by == 0 || list_.entries.empty()) return;
+  const auto chosen = std::ranges::find(list_.entries, std::filesystem::path(path_.data()), &FolderEntry::path);
+  const bool any = chosen != list_.entries.end();
+  const auto last = std::ptrdiff_t(list_.entries.size()) - 1;
+  const auto next = any ? std::clamp<std::ptrdiff_t>(chosen - list_.entries.begin() + by, 0, last) : 0;
+  put(list_.entries[std::size_t(next)].path);
+}
+
 bool OpenDialog::draw_entries(const Theme& theme, const Rect& where, std::map<std::string, Rect>& places) {
   std::vector<ListRow> rows;
   std::optional<std::size_t> chosen;
@@ -155,6 +165,7 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   sheet.take_top(theme.px(10));
   Rect buttons = sheet.take_bottom(theme.px(38));
   sheet.take_bottom(theme.px(12));
+  choose_by_keys();
   bool open = draw_entries(theme, sheet, places);
 
   // A folder is gone into, unless it is itself what is looked for.

@@ -36,6 +36,8 @@ private:
   void go_to(const std::filesystem::path& folder);
   void put(const std::filesystem::path& path);
   void draw_field(const Theme& theme, const Rect& field);
+  /// Puts the entry above or below the chosen one into the field, if one of these keys was pressed.
+  void choose_by_keys();
   /// Draws the list. Returns whether an entry was chosen by a double click.
   bool draw_entries(const Theme& theme, const Rect& where, std::map<std::string, Rect>& places);
 

@@ -1,6 +1,7 @@
 #include "app/panels/scan/score_sheet.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/panels/pages/overlays.h"
 #include "app/panels/scan/exam_panel.h"
@@ -80,12 +81,22 @@ void draw_marks(const Theme& theme, Rect& rows, float height, const std::vector<
   }
 }
 
+using Fact = std::pair<std::string, std::string>;
+
+/// Returns how many rows a fact fills, since what a view missed can take several.
+std::size_t rows_of(const Theme& theme, const Fact& fact, float width) {
+  const float name = text_width(theme.small_text, in_words(fact.first) + ": ") + 1;
+  const float line = theme.small_text->FontSize;
+  return std::size_t(std::max(1.0f, std::round(paragraph_height(theme.small_text, fact.second, width - name) / line)));
+}
+
 /// What the step has found out besides values, such as what was measured.
-void draw_fact(const Theme& theme, Rect row, const std::pair<std::string, std::string>& fact) {
+void draw_fact(const Theme& theme, Rect rows, float height, const Fact& fact) {
   const std::string name = in_words(fact.first) + ": ";
-  draw_text(row.take_left(text_width(theme.small_text, name) + 1), theme.small_text, colour::kMuted, name);
-  draw_text(row, theme.small_text, colour::kText, fact.second);
-  if (text_width(theme.small_text, fact.second) > row.w) draw_tooltip(theme, row, fact.second);
+  Rect label = rows.take_left(text_width(theme.small_text, name) + 1);
+  draw_text(label.take_top(height), theme.small_text, colour::kMuted, name);
+  rows.y += (height - theme.small_text->FontSize) / 2;
+  draw_paragraph(rows, theme.small_text, colour::kText, fact.second);
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {
@@ -113,17 +124,21 @@ std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) 
   return shown;
 }
 
-std::size_t row_count(const ExamResult& result) {
+std::size_t row_count(const Theme& theme, const ExamResult& result, float width) {
   std::size_t rows = result.steps.size() + 1 + rows_of(result.criteria);
-  for (const StepResult& step : result.steps) rows += step.facts.size() + rows_of(step.criteria);
+  for (const StepResult& step : result.steps) {
+    rows += rows_of(step.criteria);
+    for (const Fact& fact : step.facts) rows += rows_of(theme, fact, width);
+  }
   return rows;
 }
 
-void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result) {
+void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result, float width) {
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
-    for (const auto& fact : step.facts) draw_fact(theme, rows.take_top(height), fact);
+    for (const Fact& fact : step.facts)
+      draw_fact(theme, rows.take_top(height * float(rows_of(theme, fact, width))), height, fact);
     draw_marks(theme, rows, height, step.criteria);
   }
   if (result.criteria.empty()) return;
@@ -138,11 +153,13 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
                              const std::string& learner, std::map<std::string, Rect>& places) {
   const float row = theme.px(26), head_height = theme.px(74), reason_height = theme.px(22);
   const std::vector<std::string> reasons = shown_reasons(result.reasons);
-  const float rows_height = row * float(row_count(result));
+  const float sheet_width = std::min(theme.px(860), screen.w - theme.px(40));
+  const float line_width = sheet_width - 2 * theme.px(28) - theme.px(14);  // without margins and a scroll bar
+  const float rows_height = row * float(row_count(theme, result, line_width));
   const float others =
       theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons.size()) + theme.px(104);
   const float height = std::min(screen.h - theme.px(40), rows_height + others);
-  Rect sheet = begin_overlay(theme, screen, {std::min(theme.px(860), screen.w - theme.px(40)), height});
+  Rect sheet = begin_overlay(theme, screen, {sheet_width, height});
   draw_verdict(theme, sheet.take_top(head_height), result, learner, places);
   sheet.take_top(theme.px(8));
   for (const std::string& reason : reasons)
@@ -152,7 +169,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   Rect bottom = sheet.take_bottom(theme.px(92));
   {
     const ScrollArea area(theme, "marks", sheet, rows_height);
-    draw_rows(theme, area.content(), row, result);
+    draw_rows(theme, area.content(), row, result, line_width);
     titles.w = area.content().w;  // above their columns
   }
   draw_column_titles(theme, titles);

@@ -134,12 +134,19 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
                  lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
+bool asks_a_question(const Session& session) {
+  const Runner* runner = session.runner();
+  return runner && !session.result() && !runner->live().finished &&
+         std::holds_alternative<AnswerInput>(runner->scenario().steps[runner->live().step].task->input());
+}
+
 /// @param prompts  whether it says what to do next
 std::string state_text(const Session& session, const PictureTools& tools, bool prompts) {
   // While a button is down, as when the probe is dragged, the 3D view says it.
   if (session.stopped_at_edge() && !ImGui::IsMouseDown(0)) return kStopWords;
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
-  return prompts && PictureTools::ready(session) ? "Frozen:  " + tool_prompt(tools) : "Frozen";
+  return prompts && PictureTools::ready(session) && !asks_a_question(session) ? "Frozen:  " + tool_prompt(tools)
+                                                                              : "Frozen";
 }
 
 // Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.

@@ -97,6 +97,9 @@ void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard,
     draw_plate(theme, rest, colour::kAmber, colour::kAmber, theme.large, why);
   else if (view.done && why_incomplete(wizard.calibration()).empty())
     draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large, "The probe can be used. " + next_start);
+  else if (view.share == 0 && !view.reading && why_incomplete(wizard.calibration()).empty())
+    draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large,
+               "The set-up is complete, and Escape keeps it. A mark begins this step again; the others stay.");
   draw_setup_sketch(theme, rest, wizard, belly, pictures);
 }
 

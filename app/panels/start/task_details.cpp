@@ -185,6 +185,9 @@ StartAnswer draw_runs(const Theme& theme, Rect rest, StartPage& page, std::map<s
                          page.run_scenario == i ? ButtonKind::chosen : ButtonKind::normal});
     if (const auto clicked = flow_of_choices(theme, of, choices, places))
       page.run_scenario = *clicked == 0 ? std::nullopt : std::optional(*clicked - 1);
+    draw_text(rest.take_bottom(theme.px(24)), theme.small_text, colour::kMuted,
+              "The recording names no exam. Compare it with the steps of one:");
+    rest.take_bottom(theme.px(6));
   }
   std::vector<ListRow> rows;
   for (std::size_t i = 0; i < page.runs().size(); ++i)

@@ -64,6 +64,12 @@ for _ in 1 2 3; do
 done
 await "the delay is found" is setup_done true
 
+echo "a blow more does not close the page unread"
+xdotool key space
+sleep 1
+is setup_done true || fail "the page is closed"
+sleep 2.5
+
 echo "the set-up ends at the start page, and a practice scans through it"
 xdotool key space
 await "the start page is there" is start_task practice

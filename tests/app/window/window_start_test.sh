@@ -189,5 +189,17 @@ await "the CT is the patient" is patient water.mha
 click_on start_page
 await "the button leads back" is_page
 
+echo "keys choose in the list too: the folder, and the CT below it"
+xdotool key ctrl+o
+await "the dialog is there" is overlay open
+await "it lists the folder of the last time" is_not entry_water.mha_x ""
+for key in Down Down Return; do
+  sleep 0.5
+  xdotool key "$key"
+done
+await "the CT is scanned" is_not face_x ""
+click_on start_page
+await "the button leads back" is_page
+
 kill -0 "$trainer" || fail "the trainer ended by itself"
 echo "passed"
