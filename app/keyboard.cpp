@@ -151,6 +151,12 @@ void Keyboard::dispatch(Trainer& trainer, ui::Screen& screen, double until_s) {
 bool Keyboard::type(const KeyEvent& event, Trainer& trainer, ui::Screen& screen) {
   if (field_is_busy_) return false;
   ImGuiIO& io = ImGui::GetIO();
+  const bool moves = event.key == GLFW_KEY_UP || event.key == GLFW_KEY_DOWN;
+  if (moves && screen.overlay(trainer) == ui::Overlay::open && event.kind != KeyEvent::Kind::typed) {
+    if (!io.InputQueueCharacters.empty()) return false;
+    if (event.kind != KeyEvent::Kind::released) screen.open_dialog().move_choice(event.key == GLFW_KEY_UP ? -1 : +1);
+    return true;
+  }
   switch (event.kind) {
     case KeyEvent::Kind::typed:
       io.AddInputCharacter(event.character);

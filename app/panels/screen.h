@@ -101,6 +101,7 @@ public:
   void ask_for_path(Wanted wanted = Wanted::anything);
   /// Shows the page of the swept volume, or closes it; if there is none, shows how one is made.
   void toggle_volume(const Trainer& trainer);
+  OpenDialog& open_dialog() { return open_dialog_; }
   VolumePage& volume_page() { return volume_page_; }
   const VolumePage& volume_page() const { return volume_page_; }
   /// Goes back to the start page. Asks first if unfinished steps or an unsaved sweep would be lost, as the next two do.

@@ -206,7 +206,10 @@ Help help_of(HelpTopic topic) {
       return {"Help: opening a file",
               "Click through the folders or type a path. A CT is a NIfTI, NRRD or MetaImage file or a folder of DICOM "
               "files; a case is a folder that insonate-case has made.",
-              keys_of({{{"Enter", "go into the folder, or open the file"}, {"Escape", "cancel"}}, kWindow})};
+              keys_of({{{"Up, Down", "choose in the list"},
+                        {"Enter", "go into the folder, or open the file"},
+                        {"Escape", "cancel"}},
+                       kWindow})};
     case HelpTopic::settings:
       return {"Help: settings",
               "They hold for this computer's user, take effect at once, and are kept. None of them changes a score.",

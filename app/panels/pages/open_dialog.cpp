@@ -105,9 +105,8 @@ void OpenDialog::draw_field(const Theme& theme, const Rect& field) {
   ImGui::PopFont();
 }
 
-void OpenDialog::choose_by_keys() {
-  const int by = int(ImGui::IsKeyPressed(ImGuiKey_DownArrow)) - int(ImGui::IsKeyPressed(ImGuiKey_UpArrow));
-  if (by == 0 || list_.entries.empty()) return;
+void OpenDialog::move_choice(int by) {
+  if (list_.entries.empty()) return;
   const auto chosen = std::ranges::find(list_.entries, std::filesystem::path(path_.data()), &FolderEntry::path);
   const bool any = chosen != list_.entries.end();
   const auto last = std::ptrdiff_t(list_.entries.size()) - 1;
@@ -165,7 +164,6 @@ OpenDialog::Answer OpenDialog::draw(const Theme& theme, const Rect& screen, std:
   sheet.take_top(theme.px(10));
   Rect buttons = sheet.take_bottom(theme.px(38));
   sheet.take_bottom(theme.px(12));
-  choose_by_keys();
   bool open = draw_entries(theme, sheet, places);
 
   // A folder is gone into, unless it is itself what is looked for.

@@ -27,6 +27,8 @@ public:
 
   /// Returns whether the field accepts characters.
   bool ready() const { return ready_; }
+  /// Puts the entry so many below the chosen one into the field; the first if none is chosen.
+  void move_choice(int by);
   /// Makes the next draw() take what was typed until then: a folder is gone into, anything else is `chosen`.
   void confirm() { confirmed_ = true; }
   /// Call it when the dialog is no longer drawn.
@@ -36,8 +38,6 @@ private:
   void go_to(const std::filesystem::path& folder);
   void put(const std::filesystem::path& path);
   void draw_field(const Theme& theme, const Rect& field);
-  /// Puts the entry above or below the chosen one into the field, if one of these keys was pressed.
-  void choose_by_keys();
   /// Draws the list. Returns whether an entry was chosen by a double click.
   bool draw_entries(const Theme& theme, const Rect& where, std::map<std::string, Rect>& places);
 
