@@ -347,6 +347,7 @@ void StartPage::update(double now_s) {
 }
 
 void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
+  const bool rehearsed = std::ranges::any_of(trackers_, is_rehearsal, &OfferedTracker::uri);
   trackers_ = {{kMouse, "Mouse and keyboard", FoundTracker::State::ready, "", false}};
   for (const FoundTracker& tracker : found)
     trackers_.push_back(
@@ -354,6 +355,7 @@ void StartPage::list_trackers(const std::vector<FoundTracker>& found) {
   // The command line's, and one on the network, are not found on a bus.
   offer_tracker(network_tracker_);
   offer_tracker(tracker());
+  if (rehearsed) offer_tracker(kRehearsal);  // stays, after another one was chosen
 }
 
 /// Lists a tracker that no search has found.

@@ -173,8 +173,8 @@ ConsoleRequest draw_console_panel(const Theme& theme, const Rect& panel, Session
   const bool learner = session.holder() == Holder::learner;
   const bool steps = session.activity() == Activity::exam;
   if (session.only_learner()) {
-    if (button(theme, "restart", upper, steps ? "Start over" : "Back to the start", ButtonKind::normal,
-               !session.strict(), "Begins again: the probe goes back to where it started"))
+    if (button(theme, "restart", upper, steps ? "Start over" : "Reset the probe", ButtonKind::normal, !session.strict(),
+               "Begins again: the probe goes back to where it started"))
       attempt([&] { session.start_over(session.activity()); });
   } else if (button(theme, "hands", upper, learner ? "Give the probe back" : "Take the probe",
                     learner ? ButtonKind::chosen : ButtonKind::normal, !session.strict(),
