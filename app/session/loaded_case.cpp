@@ -48,7 +48,10 @@ TrackerContext find_surroundings(const Volume<std::int16_t>& ct) {
 
 /// Throws InputError if the exam cannot be taken on this patient. On a patient that was chosen beside the exam, one
 /// sentence takes the place of a list of mistakes, because the exam itself is right.
-void check_exam(const Scenario& exam, const Case& subject, bool own_patient) {
+void check_exam(const Scenario& exam, const Case& subject, const CaseSource& source) {
+  const bool own_patient = source.case_folder.empty()
+                               ? source.ct.empty()
+                               : source.case_folder.filename() == std::filesystem::path(exam.case_name).filename();
   const auto lacks_view = [&](const Step& step) { return step.view.empty() || !subject.find_view(step.view); };
   const bool any_view = std::ranges::any_of(exam.steps, [](const Step& step) { return !step.view.empty(); });
   if (!own_patient && any_view && std::ranges::all_of(exam.steps, lacks_view))
@@ -108,8 +111,7 @@ LoadedCase load_case(const CaseSource& source, const LoadProgress& progress) {
   loaded_case.patient = source.ct.empty() && source.case_folder.empty()
                             ? patient_words(loaded_case.subject.name, *loaded_case.scenario)
                             : loaded_case.subject.name.substr(0, Action::kLongestText);
-  if (loaded_case.scenario)
-    check_exam(*loaded_case.scenario, loaded_case.subject, source.ct.empty() && source.case_folder.empty());
+  if (loaded_case.scenario) check_exam(*loaded_case.scenario, loaded_case.subject, source);
 
   progress("Working out what the sound will meet", 0);
   loaded_case.acoustic = make_acoustic_volume(loaded_case.subject.ct, loaded_case.subject.labels,
@@ -133,7 +135,7 @@ std::shared_ptr<const LoadedCase> with_exam_of(const CaseSource& source, std::sh
   std::optional<Scenario> exam = read_exam(source);
   const std::optional<Scenario>& before = patient->scenario;
   if (exam && before && exam->digest == before->digest && exam->seed == before->seed) return patient;
-  if (exam) check_exam(*exam, patient->subject, source.ct.empty() && source.case_folder.empty());
+  if (exam) check_exam(*exam, patient->subject, source);
   auto same = std::make_shared<LoadedCase>(*patient);
   same->scenario = std::move(exam);
   return same;

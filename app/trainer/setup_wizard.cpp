@@ -79,11 +79,14 @@ void SetupWizard::mark(double now_s) {
 
 bool SetupWizard::strikes_on() const {
   constexpr double kUnread_s = 3;  // longer than the pause between two blows
-  return kSetupSteps[current_] == "lag" && now_s_ - kept_s_ < kUnread_s;
+  return step_->view().done && kSetupSteps[current_] == "lag" && now_s_ - kept_s_ < kUnread_s;
 }
 
 void SetupWizard::go_on() {
-  if (strikes_on()) return;
+  if (strikes_on()) {
+    kept_s_ = now_s_;
+    return;
+  }
   if (current_ + 1 == kSetupSteps.size())
     finished_ = true;
   else

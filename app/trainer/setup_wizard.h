@@ -56,6 +56,8 @@ public:
   TrackerState tracker_state() const { return sensor_.tracker().state(); }
   const Calibration& calibration() const { return calibration_; }
   const std::filesystem::path& file() const { return file_; }
+  /// Returns whether blows may still come after the last step's end. They do not go on, so that the page can be read.
+  bool strikes_on() const;
   /// Returns whether the last step has been made and left.
   bool finished() const { return finished_; }
 
@@ -63,8 +65,6 @@ private:
   void begin(std::size_t step);
   void keep_if_done();
   void go_on();
-  /// Returns whether the blows of the last step may still be coming. They would close the page before it is read.
-  bool strikes_on() const;
 
   SensorTracker sensor_;
   Calibration calibration_;

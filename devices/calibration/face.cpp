@@ -23,7 +23,7 @@ Outcome<FaceFit> fit_face(const FacePoints& points) {
   char text[200];
   if (fit.skew_deg > kMaxSkew_deg) {
     std::snprintf(text, sizeof text,
-                  "Face and handle miss the right angle by %.0f degrees; give the ends of the face and the tail again.",
+                  "Face and handle are %.0f degrees off a right angle; give the ends of the face and the tail again.",
                   fit.skew_deg);
     return Refusal{text};
   }

@@ -266,15 +266,14 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
   if (!result.criteria.empty()) html += "<section><h2>Whole exam</h2>" + table(result.criteria) + "</section>\n";
   if (!trace.empty()) {
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
-            "<p class='legend'><i class='key held'></i>view held or step done <i class='key judged'></i>judged without "
-            "a hold "
-            "<i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
+            "<p class='legend'><i class='key held'></i>view held or step done <i class='key judged'></i>judged, not "
+            "held or done <i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
     html += "<section><h2>Path of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
     for (std::size_t i = 0; i < result.steps.size(); ++i)
       html += "<i class='key path" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";
     html +=
-        "<i class='key spot good'></i>view held or step done <i class='key spot bad'></i>judged "
-        "without a hold</p></section>\n";
+        "<i class='key spot good'></i>view held or step done <i class='key spot bad'></i>judged, not "
+        "held or done</p></section>\n";
   }
   return html + made_from(result) + "</main></body></html>\n";
 }

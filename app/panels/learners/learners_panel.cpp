@@ -115,7 +115,7 @@ RowTexts texts_of(const LearnerLine& learner) {
     texts.lower +=
         ", " + std::to_string(learner.passed_exams) + "/" + counted(learner.exams, "exam", "exams") + " passed";
   if (learner.attempts > 0) {
-    if (!learner.id.empty()) texts.upper_right = best_of(learner);  // whose it is would not be known
+    if (!learner.id.empty()) texts.upper_right = best_of(learner);  // the best of all is nobody's in particular
     texts.lower_right = time_text(learner.last_ms / 1000).substr(0, 10);
   }
   return texts;

@@ -1,7 +1,6 @@
 #include "app/panels/scan/score_sheet.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/panels/pages/overlays.h"
 #include "app/panels/scan/exam_panel.h"
@@ -83,11 +82,11 @@ void draw_marks(const Theme& theme, Rect& rows, float height, const std::vector<
 
 using Fact = std::pair<std::string, std::string>;
 
-/// Returns how many rows a fact fills, since what a view missed can take several.
-std::size_t rows_of(const Theme& theme, const Fact& fact, float width) {
+/// Returns the height of a fact whose first line is a row, since what a view missed can take several lines.
+float height_of(const Theme& theme, const Fact& fact, float row, float width) {
   const float name = text_width(theme.small_text, in_words(fact.first) + ": ") + 1;
-  const float line = theme.small_text->FontSize;
-  return std::size_t(std::max(1.0f, std::round(paragraph_height(theme.small_text, fact.second, width - name) / line)));
+  const float lines = paragraph_height(theme.small_text, fact.second, width - name);
+  return row + std::max(0.0f, lines - theme.small_text->FontSize);
 }
 
 /// What the step has found out besides values, such as what was measured.
@@ -124,13 +123,14 @@ std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) 
   return shown;
 }
 
-std::size_t row_count(const Theme& theme, const ExamResult& result, float width) {
+float height_of(const Theme& theme, const ExamResult& result, float row, float width) {
   std::size_t rows = result.steps.size() + 1 + rows_of(result.criteria);
+  float facts = 0;
   for (const StepResult& step : result.steps) {
     rows += rows_of(step.criteria);
-    for (const Fact& fact : step.facts) rows += rows_of(theme, fact, width);
+    for (const Fact& fact : step.facts) facts += height_of(theme, fact, row, width);
   }
-  return rows;
+  return row * float(rows) + facts;
 }
 
 void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result, float width) {
@@ -138,7 +138,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
     for (const Fact& fact : step.facts)
-      draw_fact(theme, rows.take_top(height * float(rows_of(theme, fact, width))), height, fact);
+      draw_fact(theme, rows.take_top(height_of(theme, fact, height, width)), height, fact);
     draw_marks(theme, rows, height, step.criteria);
   }
   if (result.criteria.empty()) return;
@@ -155,7 +155,7 @@ ScoreAnswer draw_score_sheet(const Theme& theme, const Rect& screen, const ExamR
   const std::vector<std::string> reasons = shown_reasons(result.reasons);
   const float sheet_width = std::min(theme.px(860), screen.w - theme.px(40));
   const float line_width = sheet_width - 2 * theme.px(28) - theme.px(14);  // without margins and a scroll bar
-  const float rows_height = row * float(row_count(theme, result, line_width));
+  const float rows_height = height_of(theme, result, row, line_width);
   const float others =
       theme.px(48) + row + head_height + theme.px(20) + reason_height * float(reasons.size()) + theme.px(104);
   const float height = std::min(screen.h - theme.px(40), rows_height + others);

@@ -99,7 +99,9 @@ void draw_task(const Theme& theme, const Rect& panel, const SetupWizard& wizard,
     draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large, "The probe can be used. " + next_start);
   else if (view.share == 0 && !view.reading && why_incomplete(wizard.calibration()).empty())
     draw_plate(theme, rest, colour::kAccent, colour::kText, theme.large,
-               "The set-up is complete, and Escape keeps it. A mark begins this step again; the others stay.");
+               wizard.rows()[wizard.current()].figure.empty()
+                   ? "The probe can be used without this step: Escape leaves it out."
+                   : "This step has been made, and Escape keeps it. A mark begins it again.");
   draw_setup_sketch(theme, rest, wizard, belly, pictures);
 }
 
@@ -135,7 +137,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
            last   ? "Finish  (Space)"
            : done ? "Next step  (Space)"
                   : "Mark  (Space)",
-           ButtonKind::primary, done || heard))
+           ButtonKind::primary, done ? !wizard.strikes_on() : heard))
     wizard.mark(steady_now_s());
   const SetupView shown = wizard.view();
   if (next("undo", 190, done ? "Again  (Backspace)" : "Take back  (Backspace)", ButtonKind::normal,

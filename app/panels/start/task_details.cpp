@@ -115,10 +115,10 @@ StartAnswer draw_scenarios(const Theme& theme, Rect rest, StartPage& page, std::
              "For authors: shows what is wrong with a scenario file, again whenever it is saved"))
     answer = {StartAnswer::Kind::browse, Wanted::checked};
   if (!page.scenario) {
-    draw_paragraph(details, theme.text, colour::kText,
-                   "Scan the built-in patient, who has free fluid beside the right kidney; Patients has others. Key G "
-                   "shows the way "
-                   "to its views.");
+    draw_paragraph(
+        details, theme.text, colour::kText,
+        "Scan the built-in patient, who has free fluid beside the right kidney. Others are under Patients. Key "
+        "G shows the way to the views.");
     return answer;
   }
   const OfferedScenario& scenario = page.scenarios()[*page.scenario];

@@ -144,4 +144,8 @@ TEST_CASE("an exam on a patient that has none of its views is refused in one sen
   INFO("on its own patient, the scenario's author has made a mistake");
   source.ct.clear();
   CHECK_THROWS_WITH(with_exam_of(source, other), Catch::Contains("names the view 'ball'"));
+  source.case_folder = "cases/tiny";
+  CHECK_THROWS_WITH(with_exam_of(source, other), Catch::Contains("names the view 'ball'"));
+  source.case_folder = "cases/another";
+  CHECK_THROWS_WITH(with_exam_of(source, other), Catch::Contains("is made for another patient"));
 }

@@ -59,8 +59,10 @@ for _ in 1 2 3; do
     xdotool key space
     sleep "$pause"
   done
-  sleep 2
-  if is setup_done true; then break; fi
+  for _ in $(seq 40); do
+    if is setup_done true; then break 2; fi
+    sleep 0.05
+  done
 done
 await "the delay is found" is setup_done true
 
@@ -68,7 +70,7 @@ echo "a blow more does not close the page unread"
 xdotool key space
 sleep 1
 is setup_done true || fail "the page is closed"
-sleep 2.5
+sleep 3.5
 
 echo "the set-up ends at the start page, and a practice scans through it"
 xdotool key space

@@ -60,7 +60,7 @@ TEST_CASE("points that are not a probe's are refused") {
   CHECK_THAT(fit_face(points).refusal(), Contains("tail lies too near"));
   points = kDrawn;
   points.tail = {40, -150, 0};
-  CHECK_THAT(fit_face(points).refusal(), Contains("miss the right angle by 15 degrees"));
+  CHECK_THAT(fit_face(points).refusal(), Contains("are 15 degrees off a right angle"));
   points = kDrawn;
   points.middle = {9, 0, 0};
   points.tail = {9, -150, 0};
