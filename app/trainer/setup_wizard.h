@@ -73,7 +73,7 @@ private:
   std::unique_ptr<SetupStep> step_;
   std::size_t current_ = 0;
   bool kept_ = false, finished_ = false;
-  double now_s_ = 0, kept_s_ = 0;  ///< of update(), and when the step was done
+  double now_s_ = 0, kept_s_ = 0;  ///< of update(), and when the step was done or a blow came after it
   ButtonPresses presses_;
   std::vector<SensorSample> samples_;
   std::string rehearsal_;

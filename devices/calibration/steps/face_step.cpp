@@ -60,8 +60,7 @@ void FaceStep::finish() {
 std::string FaceStep::result() const {
   return formatted(
       "face and handle are %.1f degrees off a right angle, where below 3 is good; the touched middle lies %.1f mm from "
-      "halfway between the "
-      "ends",
+      "halfway between the ends",
       found_.skew_deg, found_.off_middle_mm);
 }
 

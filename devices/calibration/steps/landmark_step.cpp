@@ -66,8 +66,7 @@ std::string LandmarkStep::result() const {
     if (pair.held_out) checked += (checked.empty() ? "" : ", ") + pair.name;
   return formatted(
       "accuracy %.1f mm, where below 3 mm is good: the RMS error where only the fit is checked (%s); the fitted "
-      "ones are %.1f mm off (RMS), "
-      "%s most (%.1f mm)",
+      "ones are %.1f mm off (RMS), %s most (%.1f mm)",
       found_.accuracy_mm, checked.c_str(), found_.residual_mm, found_.worst.c_str(), found_.worst_mm);
 }
 
