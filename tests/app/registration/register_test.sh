@@ -6,7 +6,7 @@ program=$1 sender=$3
 export INSONATE_ASSETS=$2
 work=$(mktemp -d)
 serving=""
-trap '[ -z "$serving" ] || kill "$serving"; rm -rf "$work"' EXIT
+trap '[ -z "$serving" ] || { kill "$serving" && wait "$serving" || true; }; rm -rf "$work"' EXIT
 fail() {
   echo "FAILED: $*" >&2
   cat "$work/said" >&2

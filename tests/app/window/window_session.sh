@@ -13,6 +13,7 @@ finish() {
   for started in "${helpers[@]}" "$trainer" "$server"; do
     [ -z "$started" ] || kill "$started" 2>/dev/null || true
   done
+  wait  # a program that still writes into the folder would fail its removal, and with that the test
   rm -rf "$work"
 }
 trap finish EXIT
