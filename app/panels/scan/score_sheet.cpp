@@ -46,6 +46,11 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result, const
   draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
 }
 
+/// Whether a line below says why: where points are missing. The report says it of all.
+bool has_reason(const CriterionScore& mark) {
+  return mark.points < mark.weight && !mark.why.empty();
+}
+
 void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) {
   const SheetColumns columns = columns_of(theme, row);
   const double share = mark.weight > 0 ? mark.points / mark.weight : 1;
@@ -57,45 +62,59 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
-  draw_tooltip(theme, row, mark.why);
+  if (!has_reason(mark)) draw_tooltip(theme, row, mark.why);
 }
 
-/// Whether the sheet says why: where points are missing. The report says it of all.
-bool has_reason(const CriterionScore& mark) {
-  return mark.points < mark.weight && !mark.why.empty();
+float reason_indent(const Theme& theme) {
+  return theme.px(16);
 }
 
-std::size_t rows_of(const std::vector<CriterionScore>& marks) {
-  return marks.size() + std::size_t(std::ranges::count_if(marks, has_reason));
+/// Returns the height of rows of text whose first line is a row, since some texts take several lines.
+float height_of(const Theme& theme, const std::string& text, float row, float width) {
+  return row + std::max(0.0f, paragraph_height(theme.small_text, text, width) - theme.small_text->FontSize);
 }
 
-void draw_marks(const Theme& theme, Rect& rows, float height, const std::vector<CriterionScore>& marks) {
+float height_of(const Theme& theme, const std::vector<CriterionScore>& marks, float row, float width) {
+  float height = row * float(marks.size());
+  for (const CriterionScore& mark : marks)
+    if (has_reason(mark)) height += height_of(theme, mark.why, row, width - reason_indent(theme));
+  return height;
+}
+
+/// A text whose first line is in the middle of a row.
+void draw_lines(const Theme& theme, Rect rows, float row, ImU32 ink, const std::string& text) {
+  rows.y += (row - theme.small_text->FontSize) / 2;
+  draw_paragraph(rows, theme.small_text, ink, text);
+}
+
+void draw_marks(const Theme& theme, Rect& rows, float row, const std::vector<CriterionScore>& marks, float width) {
   for (const CriterionScore& mark : marks) {
-    draw_mark(theme, rows.take_top(height), mark);
+    draw_mark(theme, rows.take_top(row), mark);
     if (!has_reason(mark)) continue;
-    Rect reason = rows.take_top(height);
+    const float indent = reason_indent(theme);
+    Rect reason = rows.take_top(height_of(theme, mark.why, row, width - indent));
     reason.y -= theme.px(4);
-    reason.take_left(theme.px(16));
-    draw_text(reason, theme.small_text, colour::kMuted, mark.why);
+    reason.take_left(indent);
+    reason.w = width - indent;
+    draw_lines(theme, reason, row, colour::kMuted, mark.why);
   }
 }
 
 using Fact = std::pair<std::string, std::string>;
 
-/// Returns the height of a fact whose first line is a row, since what a view missed can take several lines.
+float name_width(const Theme& theme, const Fact& fact) {
+  return text_width(theme.small_text, in_words(fact.first) + ": ") + 1;
+}
+
 float height_of(const Theme& theme, const Fact& fact, float row, float width) {
-  const float name = text_width(theme.small_text, in_words(fact.first) + ": ") + 1;
-  const float lines = paragraph_height(theme.small_text, fact.second, width - name);
-  return row + std::max(0.0f, lines - theme.small_text->FontSize);
+  return height_of(theme, fact.second, row, width - name_width(theme, fact));
 }
 
 /// What the step has found out besides values, such as what was measured.
-void draw_fact(const Theme& theme, Rect rows, float height, const Fact& fact) {
-  const std::string name = in_words(fact.first) + ": ";
-  Rect label = rows.take_left(text_width(theme.small_text, name) + 1);
-  draw_text(label.take_top(height), theme.small_text, colour::kMuted, name);
-  rows.y += (height - theme.small_text->FontSize) / 2;
-  draw_paragraph(rows, theme.small_text, colour::kText, fact.second);
+void draw_fact(const Theme& theme, Rect rows, float row, const Fact& fact) {
+  Rect name = rows.take_left(name_width(theme, fact));
+  draw_text(name.take_top(row), theme.small_text, colour::kMuted, in_words(fact.first) + ": ");
+  draw_lines(theme, rows, row, colour::kText, fact.second);
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {
@@ -124,13 +143,12 @@ std::vector<std::string> shown_reasons(const std::vector<std::string>& reasons) 
 }
 
 float height_of(const Theme& theme, const ExamResult& result, float row, float width) {
-  std::size_t rows = result.steps.size() + 1 + rows_of(result.criteria);
-  float facts = 0;
+  float height = row * float(result.steps.size() + 1) + height_of(theme, result.criteria, row, width);
   for (const StepResult& step : result.steps) {
-    rows += rows_of(step.criteria);
-    for (const Fact& fact : step.facts) facts += height_of(theme, fact, row, width);
+    height += height_of(theme, step.criteria, row, width);
+    for (const Fact& fact : step.facts) height += height_of(theme, fact, row, width);
   }
-  return row * float(rows) + facts;
+  return height;
 }
 
 void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& result, float width) {
@@ -139,11 +157,11 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
     for (const Fact& fact : step.facts)
       draw_fact(theme, rows.take_top(height_of(theme, fact, height, width)), height, fact);
-    draw_marks(theme, rows, height, step.criteria);
+    draw_marks(theme, rows, height, step.criteria, width);
   }
   if (result.criteria.empty()) return;
   draw_group(theme, rows.take_top(height), "The whole exam", clock_text(result.motion.time_s));
-  draw_marks(theme, rows, height, result.criteria);
+  draw_marks(theme, rows, height, result.criteria, width);
 }
 
 }  // namespace

@@ -51,8 +51,10 @@ void LagStep::ask(SetupView& view) const {
 }
 
 std::string LagStep::result() const {
-  return formatted("the tracker's poses come %.0f ms %s (single blows differ by %.0f ms, RMS), which is not corrected",
-                   std::abs(found_.lag_s) * 1e3, found_.lag_s < 0 ? "early" : "late", found_.spread_s * 1e3);
+  return formatted(
+      "the tracker's poses come %.0f ms %s, where below 100 ms is good, and which is not corrected; single "
+      "blows differ by %.0f ms (RMS)",
+      std::abs(found_.lag_s) * 1e3, found_.lag_s < 0 ? "early" : "late", found_.spread_s * 1e3);
 }
 
 void LagStep::store(Calibration& calibration, std::int64_t now_s) const {
