@@ -24,7 +24,7 @@ std::vector<ShownAnnotations::Value> values_of(const std::optional<Pose>& pictur
   using Of = ShownAnnotations::Value::Of;
   std::vector<ShownAnnotations::Value> values;
   const auto& hand = tools.in_hand();
-  const bool numbered = tools.free_choice() || (tools.measuring() && tools.measuring()->numbered);
+  const bool numbered = tools.free_choice() || (tools.measuring() && tools.measuring()->slots.size() > 1);
   const auto add = [&](const Action& action, Of of) {
     const std::string number = numbered ? std::to_string(action.slot()) + "   " : "";
     values.push_back({number + tools.slot_name(action.slot()), value_text(action), of});

@@ -84,6 +84,12 @@ void PictureTools::choose(Tool tool) {
   tool_ = tool;
 }
 
+bool PictureTools::has_all() const {
+  if (measuring()) return annotations_.measured().size() >= measuring()->slots.size();
+  if (labelling()) return annotations_.labels().size() >= names_.size();
+  return tool_ == Tool::point && annotations_.point();
+}
+
 int PictureTools::slot() const {
   if (chosen_slot_) return *chosen_slot_;
   const int last = measuring() ? int(measuring()->slots.size()) : Action::kMaxSlots;

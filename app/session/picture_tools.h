@@ -40,6 +40,8 @@ public:
   const MeasureInput* measuring() const { return std::get_if<MeasureInput>(&input_); }
   /// Returns whether the current step asks for names.
   bool labelling() const { return std::holds_alternative<LabelInput>(input_); }
+  /// Returns whether all that the current step asks for has been placed.
+  bool has_all() const;
   /// Returns the slot of the next caliper.
   int slot() const;
   void choose_slot(int slot);

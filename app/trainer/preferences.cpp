@@ -56,10 +56,9 @@ Preferences read_preferences(const fs::path& file) {
   read.look.tint = choice<Tint>(table, "tint", kTints);
   read.look.layout = choice<LayoutName>(table, "layout", {kLayoutNames.begin(), kLayoutNames.end()});
   read.look.landmarks = table.boolean("landmarks", read.look.landmarks);
-  read.ct.grey.window_hu =
-      table.number("ct_window", {WindowLevel::kMinWindow, WindowLevel::kMaxWindow}, read.ct.grey.window_hu);
-  read.ct.grey.level_hu =
-      table.number("ct_level", {WindowLevel::kMinLevel, WindowLevel::kMaxLevel}, read.ct.grey.level_hu);
+  // Earlier versions kept the grey scale, which is a patient's.
+  table.number("ct_window", {WindowLevel::kMinWindow, WindowLevel::kMaxWindow}, 0);
+  table.number("ct_level", {WindowLevel::kMinLevel, WindowLevel::kMaxLevel}, 0);
   read.ct.outlines = table.boolean("ct_outlines", read.ct.outlines);
   read.ct.blend_colour = choice<BlendColour>(table, "blend_colour", kBlendColours);
   read.ct.cross_hair = choice<CrossHair>(table, "cross_hair", kCrossHairs);
@@ -91,8 +90,6 @@ void write_preferences(const fs::path& file, const Preferences& preferences) {
   line("tint", kTints[std::size_t(preferences.look.tint)]);
   line("layout", kLayoutNames[std::size_t(preferences.look.layout)]);
   text += "landmarks = " + yes_or_no(preferences.look.landmarks);
-  text += "ct_window = " + toml_value(preferences.ct.grey.window_hu) + "\n";
-  text += "ct_level = " + toml_value(preferences.ct.grey.level_hu) + "\n";
   text += "ct_outlines = " + yes_or_no(preferences.ct.outlines);
   line("blend_colour", kBlendColours[std::size_t(preferences.ct.blend_colour)]);
   line("cross_hair", kCrossHairs[std::size_t(preferences.ct.cross_hair)]);

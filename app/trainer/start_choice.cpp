@@ -57,7 +57,7 @@ std::string StartPage::why_no_exam() const {
     return learner() + " has taken this exam already: it is no. " + std::to_string(number) +
            " of the results. Choose another, or practise.";
   if (const Sitting* begun = begun_in(scenarios_[*scenario]))
-    return learner() + " began this exam on " + utc_time(begun->began_ms) +
+    return learner() + " began this exam on " + time_text(begun->began_ms / 1000) +
            " and has not handed it in. End it where it is being taken, or have what there is of it scored: "
            "insonate-score hand-in " +
            shell_word(database_.string());

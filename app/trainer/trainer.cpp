@@ -247,6 +247,7 @@ void Trainer::show(std::shared_ptr<const LoadedCase> loaded_case, const Request&
   if (loaded_case != loaded_case_) {
     keep_look();
     gl::upload_ct(patient_of(request.source), loaded_case->subject.ct.grid, [&] { pictures_.show(*loaded_case); });
+    preferences_.ct.grey = {};
     if (!request.source.ct.empty() && !has_air(loaded_case->subject.ct))
       notices_.push_back({request.source.ct.filename().string() +
                               " holds no air around a body: it may be labels or another image, not a CT",

@@ -35,6 +35,9 @@ struct Notice {
   std::filesystem::path file;  ///< that it is about
 };
 
+/// Returns the notice that a file has been written: its name before its folder, so that a line can end between them.
+Notice notice_of_saved(const std::filesystem::path& file);
+
 /// The trainer without its screen: loads what is asked for on a thread of its own, runs the session, draws its
 /// pictures, writes the results, and collects what went wrong for a dialog. Needs an OpenGL context current, from
 /// construction to destruction, on the one thread that uses it.

@@ -16,7 +16,15 @@ std::filesystem::path name_of_saved(const std::filesystem::path& out, const char
   return out / folder / file_time(now_since_1970_ms());
 }
 
+std::string in_folder_of(const std::filesystem::path& file) {
+  return " in " + std::filesystem::absolute(file).parent_path().string();
+}
+
 }  // namespace
+
+Notice notice_of_saved(const std::filesystem::path& file) {
+  return {"Saved " + file.filename().string() + in_folder_of(file), file};
+}
 
 void Trainer::toggle_sweep() {
   if (!can_sweep()) return;
@@ -42,7 +50,7 @@ void Trainer::save_swept() {
     const std::filesystem::path file = free_path(name_of_saved(options_.out, "volumes"), ".nrrd");
     write_swept(file, *swept_);
     swept_is_saved_ = true;
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+    notices_.push_back(notice_of_saved(file));
   });
 }
 
@@ -65,7 +73,7 @@ void Trainer::save_picture(const Image<Rgba8>& picture) {
   attempt([&] {
     const std::filesystem::path file = free_path(name_of_saved(options_.out), ".png");
     write_png(file, picture);
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+    notices_.push_back(notice_of_saved(file));
   });
 }
 
@@ -75,14 +83,13 @@ void Trainer::start_clip() {
 
 void Trainer::notice_recordings() {
   attempt([&] {
-    if (const auto clip = clip_.take_finished())
-      notices_.push_back({"Saved " + std::filesystem::absolute(*clip).string(), *clip});
+    if (const auto clip = clip_.take_finished()) notices_.push_back(notice_of_saved(*clip));
   });
   const std::vector<std::filesystem::path> files = recorder_.take_finished();
   if (files.empty()) return;
-  std::string notice = "Recorded to " + std::filesystem::absolute(files.front()).string();
-  if (files.size() > 1) notice += " and, from each new start on, to " + files.back().filename().string();
-  notices_.push_back({notice, files.front()});
+  std::string names = files.front().filename().string();
+  if (files.size() > 1) names += " and, from each new start on, " + files.back().filename().string();
+  notices_.push_back({"Recorded " + names + in_folder_of(files.front()), files.front()});
 }
 
 void Trainer::write_results_if_due() {

@@ -23,7 +23,7 @@ void Trainer::take_look(const std::filesystem::path& file) {
 void Trainer::save_look() {
   attempt([&] {
     const std::filesystem::path file = pictures_.look.save();
-    notices_.push_back({"Saved " + std::filesystem::absolute(file).string(), file});
+    notices_.push_back(notice_of_saved(file));
   });
 }
 

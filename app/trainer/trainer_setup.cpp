@@ -164,6 +164,7 @@ void Trainer::end_setup() {
   const std::string title = setup()->title_of(missing);
   const bool is_own_mode = options_.mode == Mode::setup, from_start_page = given_.mode != Mode::setup;
   if (is_own_mode && (from_start_page || !missing.empty())) {
+    if (missing.empty()) notices_.push_back({"The set-up is complete: what comes next uses it", setup()->file()});
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
     if (missing.empty() && is_rehearsal(start_page()->tracker())) start_page()->scenario.reset();

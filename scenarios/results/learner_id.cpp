@@ -19,7 +19,7 @@ std::string why_no_learner_id(std::string_view id) {
     // Bytes outside printable ASCII would not display correctly, and the id may come from any file.
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
-    return "'" + shown + "' is not an opaque id: " + (has_space ? "it has a space; " : "") +
+    return "'" + shown + "' is not an id: " + (has_space ? "it has a space; " : "") +
            "only letters A to Z and a to z, digits, '.', '_' and '-' can stand in one";
   }
   return {};

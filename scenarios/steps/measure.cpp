@@ -208,7 +208,7 @@ std::string Measure::value_text(double value) const {
 }
 
 StepInput Measure::input() const {
-  MeasureInput input{places(), {}, walls, tool == Tool::ratio, "", {}};
+  MeasureInput input{places(), {}, walls, "", {}};
   if (slots() == 1) {
     input.slots = {tool == Tool::ellipse ? "Area" : "Distance"};
     return input;

@@ -33,7 +33,6 @@ struct MeasureInput {
   ActionKind places = ActionKind::caliper;  ///< or ellipse
   std::vector<std::string> slots;           ///< what each is called, from slot 1 on: "aorta, width"; 1 to 3
   std::string convention;                   ///< where the calipers go: "outer to outer"
-  bool numbered = false;                    ///< the slots' numbers are shown, because it matters which is which
   std::string result;                       ///< what all slots together are called: "Ratio"; empty for one slot
   /// Returns the result with its unit from what all slots hold, in their order: "1.25".
   std::function<std::string(const std::vector<Action>&)> result_text;

@@ -134,13 +134,16 @@ void CheckPanel::draw_problems(const Theme& theme, Rect panel, CheckPage& page) 
   const float wide = panel.w - edge - 2 * dx;
   const float text = paragraph_height(theme.heading, verdict.text, wide);
   const std::optional<Loading::Progress> progress = page.progress();
-  Rect plate = panel.take_top(text + 2 * dy + (progress ? theme.px(26) : 0));
+  const std::string how_far = progress ? progress_text(*progress) : "";
+  const float gap = theme.px(8), below = progress ? gap + paragraph_height(theme.small_text, how_far, wide) : 0;
+  Rect plate = panel.take_top(text + below + 2 * dy);
   panel.take_top(theme.px(12));
   fill(plate, colour::kRaised, theme.px(4));
   fill(plate.take_left(edge), verdict.edge, theme.px(3));
   plate = plate.inset(dx, dy);
   draw_paragraph(plate.take_top(text), theme.heading, verdict.ink, verdict.text);
-  if (progress) draw_text(plate, theme.small_text, colour::kMuted, progress_text(*progress));
+  plate.take_top(gap);
+  if (progress) draw_paragraph(plate, theme.small_text, colour::kMuted, how_far);
 
   const float line = theme.px(22), between = theme.px(8), inner = panel.w - 2 * dx - theme.px(14);
   const auto height_of = [&](const Mistake& problem) {

@@ -100,6 +100,9 @@ Help help_of(HelpTopic topic) {
               "points, on the right the chosen attempt with its comments.",
               keys_of({{{"Up, Down", "choose a learner"},
                         {"Enter", "look at the chosen attempt again"},
+                        {"Arrows of the chart", "the attempts at another scenario"},
+                        {"Write report", "the attempt's report, with the comments that it has now"},
+                        {"Write all as CSV", "learners, attempts, scores and comments as tables"},
                         {"Escape", "to the start page"}},
                        kWindow})};
     case HelpTopic::check:

@@ -73,8 +73,11 @@ const char* what_is_shown(Wanted wanted) {
 
 void OpenDialog::open(Wanted wanted) {
   std::error_code error;
+  // What could not be opened because of a slip is mended, not typed again.
+  const std::filesystem::path typed = wanted == wanted_ ? path_.data() : "";
   wanted_ = wanted;
   go_to(list_.folder.empty() ? std::filesystem::current_path(error) : list_.folder);
+  if (!typed.empty() && !std::filesystem::exists(typed, error)) put(typed);
 }
 
 void OpenDialog::go_to(const std::filesystem::path& folder) {

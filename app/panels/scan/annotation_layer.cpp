@@ -167,6 +167,7 @@ void take_pointer(const Theme& theme, const PlaneOnScreen& plane, Session& sessi
 std::string tool_prompt(const PictureTools& tools) {
   using Tool = PictureTools::Tool;
   const bool begun = tools.in_hand().has_value();
+  if (!begun && tools.has_all()) return "All is placed";
   switch (tools.tool()) {
     case Tool::distance:
       return begun ? "Click the other end" : "Click one end, then the other";
@@ -175,7 +176,7 @@ std::string tool_prompt(const PictureTools& tools) {
              : tools.in_hand()->numbers[5] > 0 ? "Click the width"
                                                : "Click the axis' other end";
     case Tool::point:
-      return tools.annotations().point() ? "The place is marked" : "Click the place";
+      return "Click the place";
     case Tool::label:
       return tools.unnamed_place() ? "Now choose its name" : "Click a place, then its name";
   }

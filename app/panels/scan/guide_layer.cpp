@@ -56,8 +56,9 @@ std::size_t draw_guide_strip(const Theme& theme, const Rect& strip, const Guidin
   std::string facts = guiding.slides ? ""
                                      : "plane " + fixed(guiding.plane_distance_mm, 0) + " mm and " +
                                            fixed(guiding.plane_angle_deg, 0) + "\u00b0 off";
-  if (counted)
-    facts += (facts.empty() ? "" : "; ") + std::string("costs no points, but the report says how long it was shown");
+  facts += facts.empty() ? "" : "; ";
+  facts += counted ? "costs no points, but the report says how long it was shown"
+                   : "G leads to the next view, and after the last to none";
   draw_text(head, theme.text, colour::kMuted, facts);
   if (guiding.there) {
     draw_text(rest, theme.text, colour::kAccent, "Here it is. Hold still.");

@@ -32,7 +32,9 @@ void draw_slots(const Theme& theme, Rect where, PictureTools& tools, std::map<st
     const auto placed = tools.annotations().measured().find(slot);
     const std::string value =
         placed == tools.annotations().measured().end() ? "\u2013" : value_text(placed->second.action);
-    choices.push_back({"slot_" + std::to_string(slot), tools.slot_name(slot) + "   " + value,
+    // The number stands beside the caliper too.
+    const std::string number = measure.slots.size() > 1 ? std::to_string(slot) + "  " : "";
+    choices.push_back({"slot_" + std::to_string(slot), number + tools.slot_name(slot) + "   " + value,
                        slot == tools.slot() ? ButtonKind::chosen : ButtonKind::normal});
   }
   const float convention = text_width(theme.text, measure.convention);

@@ -134,10 +134,13 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
                  lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
-bool asks_a_question(const Session& session) {
+/// Whether something is to be placed in a frozen picture: without steps always, and in a step that asks for it.
+bool asks_to_place(const Session& session) {
   const Runner* runner = session.runner();
-  return runner && !session.result() && !runner->live().finished &&
-         std::holds_alternative<AnswerInput>(runner->scenario().steps[runner->live().step].task->input());
+  if (!runner || session.result() || runner->live().finished) return true;
+  const StepInput input = runner->scenario().steps[runner->live().step].task->input();
+  return std::holds_alternative<MeasureInput>(input) || std::holds_alternative<PointInput>(input) ||
+         std::holds_alternative<LabelInput>(input);
 }
 
 /// @param prompts  whether it says what to do next
@@ -145,8 +148,8 @@ std::string state_text(const Session& session, const PictureTools& tools, bool p
   // While a button is down, as when the probe is dragged, the 3D view says it.
   if (session.stopped_at_edge() && !ImGui::IsMouseDown(0)) return kStopWords;
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
-  return prompts && PictureTools::ready(session) && !asks_a_question(session) ? "Frozen:  " + tool_prompt(tools)
-                                                                              : "Frozen";
+  const bool places = asks_to_place(session) || tools.in_hand();
+  return prompts && PictureTools::ready(session) && places ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
 // Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.

@@ -110,7 +110,8 @@ void draw_box(const Theme& theme, const Rect& of, std::string_view words) {
   const ImGuiIO& io = ImGui::GetIO();
   const ImVec2 size = size_of(theme.text, text);
   Rect box{io.MousePos.x, 0, size.x + theme.px(24), size.y + theme.px(16)};
-  box.x = std::clamp(box.x, 0.0f, std::max(0.0f, io.DisplaySize.x - box.w));
+  const float edge = theme.px(8);
+  box.x = std::clamp(box.x, edge, std::max(edge, io.DisplaySize.x - box.w - edge));
   box.y = of.y - box.h - theme.px(6);
   if (box.y < 0) box.y = of.y + of.h + theme.px(6);
   ImDrawList* list = ImGui::GetForegroundDrawList();

@@ -68,7 +68,8 @@ void AxesStep::ask(SetupView& view) const {
   view.share = double(ends_.size()) / 8;
   const std::size_t move = ends_.size() / 2;
   view.reading = ends_.size() % 2 == 1;
-  view.task = formatted("%zu of 4: ", move + 1) + (view.reading ? kEnd[move] : kBegin[move]);
+  view.task = formatted("Move %zu of 4, %s: ", move + 1, view.reading ? "end" : "begin") +
+              (view.reading ? kEnd[move] : kBegin[move]);
   if (view.reading && newest_)
     view.feedback =
         formatted("%.0f mm from the beginning", glm::distance(ends_.back().translation, newest_->translation));

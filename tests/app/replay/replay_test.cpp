@@ -176,8 +176,8 @@ TEST_CASE("a replay has what lay over its pictures, from when it was placed unti
   using Actions = std::vector<Action>;
   using Value = ShownAnnotations::Value;
   using Of = ShownAnnotations::Value::Of;
-  const Value length_1{"Length", value_text(first)}, length_2{"Depth", value_text(second)},
-      length_3{"Width", value_text(third)};
+  const Value length_1{"1   Length", value_text(first)}, length_2{"2   Depth", value_text(second)},
+      length_3{"3   Width", value_text(third)};
 
   SECTION("in an exam: until it is taken back, the picture moves on or the step ends") {
     loaded_case->scenario =
@@ -194,8 +194,8 @@ TEST_CASE("a replay has what lay over its pictures, from when it was placed unti
     CHECK(at(50) == ShownAnnotations{});
     CHECK(placed(69) == Actions{first, second});
     INFO("the values of a step that is measured in several pictures stay");
-    const Value elsewhere_1{"Length", value_text(first), Of::other_picture},
-        elsewhere_2{"Depth", value_text(second), Of::other_picture};
+    const Value elsewhere_1{"1   Length", value_text(first), Of::other_picture},
+        elsewhere_2{"2   Depth", value_text(second), Of::other_picture};
     CHECK(placed(70).empty());
     CHECK(at(70).values == std::vector{elsewhere_1, elsewhere_2});
     CHECK(placed(80).empty());

@@ -212,8 +212,10 @@ TEST_CASE("a step's calipers may lie in several pictures, and one that no step u
   CHECK(desk.length(1) == 40);
   CHECK(desk.length(2) == 30);
   CHECK(desk.tools.total_text().empty());
+  CHECK_FALSE(desk.tools.has_all());
   desk.click(-10, 50);
   desk.click(10, 50);
+  CHECK(desk.tools.has_all());
   CHECK(desk.tools.total_text() == "Volume 13 ml");  // pi / 6 * 4 * 3 * 2 = 12.6
   CHECK(desk.session->runner()->live().counts_as_done);
 
@@ -237,6 +239,7 @@ TEST_CASE("a step's calipers may lie in several pictures, and one that no step u
   practice.click(40, 80);
   CHECK(practice.tools.annotations().measured().at(1).action.kind == ActionKind::ellipse);
   CHECK(practice.length(2) == 40);
+  CHECK_FALSE(practice.tools.has_all());
   practice.freeze(false);
   CHECK(practice.is_empty());
 }
@@ -244,7 +247,9 @@ TEST_CASE("a step's calipers may lie in several pictures, and one that no step u
 TEST_CASE("a point is clicked and dragged, and a place is clicked and then named, in no telling order") {
   Desk point(kPoint);
   point.freeze();
+  CHECK_FALSE(point.tools.has_all());
   point.click(3, 45);
+  CHECK(point.tools.has_all());
   point.press(3, 46);
   point.release(0, 45);
   point.pass();

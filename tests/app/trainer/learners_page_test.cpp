@@ -195,7 +195,7 @@ TEST_CASE("comments are added to the chosen attempt and removed, and reports and
   page.choose_attempt(1);
   CHECK(page.comments().empty());
   page.choose_author("T-02");
-  CHECK_THROWS_WITH(page.choose_author("Ada Lovelace"), Catch::Contains("not an opaque id"));
+  CHECK_THROWS_WITH(page.choose_author("Ada Lovelace"), Catch::Contains("not an id"));
   const std::int64_t before_ms = now_since_1970_ms();
   page.add_comment("Slow down");
   CHECK_THROWS_WITH(page.add_comment("two\nlines"), Catch::Contains("line break"));

@@ -15,7 +15,7 @@ namespace {
 Preferences unusual() {
   Preferences preferences;
   preferences.look = {TextSize::largest, LengthUnit::mm, MarkerSide::right, Tint::cool, LayoutName::four, true};
-  preferences.ct = {{1500, -600}, false, BlendColour::green, CrossHair::face};
+  preferences.ct = {{}, false, BlendColour::green, CrossHair::face};
   preferences.quality = "exact";
   preferences.igtl_server = "0.0.0.0:18950";
   preferences.out = "/srv/a \"quoted\" place/\u00e4";
@@ -35,6 +35,13 @@ TEST_CASE("preferences are read as they were written, and without a file they ar
   write_preferences(file, unusual());
   CHECK(read_preferences(file) == unusual());
   write_preferences(file, Preferences());
+  CHECK(read_preferences(file) == Preferences());
+}
+
+TEST_CASE("a grey scale that an earlier version kept is read, and is not used") {
+  const TemporaryFolder folder;
+  const auto file = folder.path / "settings.toml";
+  write_file(file, "format = 1\nct_window = 1500\nct_level = -600\n");
   CHECK(read_preferences(file) == Preferences());
 }
 

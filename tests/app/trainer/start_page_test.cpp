@@ -267,7 +267,7 @@ TEST_CASE("an exam needs a learner who has not taken it, and the page says so") 
   CHECK(page.refused_learner() == "Ada Lovelace");
   for (const Task task : {Task::first_scan, Task::practice, Task::exam, Task::patients}) {
     page.task = task;
-    CHECK(page.why_not().find("'Ada Lovelace' is not an opaque id") != std::string::npos);
+    CHECK(page.why_not().find("'Ada Lovelace' is not an id") != std::string::npos);
   }
   page.task = Task::practice;
   page.choose_learner("L-08");

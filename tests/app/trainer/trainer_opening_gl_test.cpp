@@ -158,12 +158,16 @@ TEST_CASE("another log can be opened in the same session's place, another patien
     return names;
   };
   CHECK(guided_to() == std::vector<std::string>{"ball", "bare", "made"});
+  CtLook bones = trainer.preferences().ct;
+  bones.grey = {2000, 400};
+  trainer.adjust_ct_look(bones);
   Case another = tiny_case();
   another.name = "Somebody else";
   write_case(folder.path / "another", another);
   open_and_wait(trainer, folder.path / "another");
   REQUIRE(trainer.problems().empty());
   CHECK(trainer.session()->loaded_case().subject.name == "Somebody else");
+  CHECK(trainer.preferences().ct.grey == WindowLevel());
   CHECK(trainer.session()->holder() == Holder::learner);
   trainer.update(4);
   trainer.draw(kSizes);

@@ -197,7 +197,7 @@ xdotool key r
 await "the recording ends" is recording ""
 written() { [ -s "$work/run.igs.mha" ]; }
 await "the file is made" written
-await "the screen names it" contains toast "$work/run.igs.mha"
+await "the screen names it" contains toast "run.igs.mha in $work"
 
 echo "the recording scores as the exam did"
 made=$(dirname "$(value report)")/score.json

@@ -99,7 +99,7 @@ xdotool type "L/07"
 xdotool key Return
 await "the id is refused" is overlay problem
 xdotool key Return
-await "the page says what to correct" contains start_why_not "'L/07' is not an opaque id"
+await "the page says what to correct" contains start_why_not "'L/07' is not an id"
 click_on learner_field
 await "the field takes text" is typing true
 xdotool type "L-07"

@@ -197,7 +197,7 @@ TEST_CASE("insonate-score refuses databases and lists that it cannot use in one 
     refused(command + (folder.path / "none.db").string(), "no such file");
   }
   refused("pass-mark " + text + " --novices " + ids + " --experts " + ids, "'a' is a novice as well");
-  refused("--log x --scenario y --learner 'Ada Lovelace'", "not an opaque id");
+  refused("--log x --scenario y --learner 'Ada Lovelace'", "not an id");
   ResultsDatabase::open_or_make(folder.path / "lab.db");
   refused("report " + (folder.path / "lab.db").string() + " --attempt 3", "no attempt 3");
   const std::string lab = (folder.path / "lab.db").string();
@@ -207,7 +207,7 @@ TEST_CASE("insonate-score refuses databases and lists that it cannot use in one 
   refused("comment " + lab + " --attempt 3 --text x", "no attempt 3");
   refused("comment " + lab + " --attempt 3 --text \"$(printf 'two\\nlines')\"",
           "command line: comment: character 4 of the comment is a line break; write one paragraph");
-  refused("comment " + lab + " --attempt 3 --text x --author 'Ada Lovelace'", "not an opaque id");
+  refused("comment " + lab + " --attempt 3 --text x --author 'Ada Lovelace'", "not an id");
   refused("comment " + lab + " --remove 3", "no comment 3");
   refused("comment " + lab + " --remove 3 --text x", "excludes");
   refused("comment " + text + " --attempt 3 --text x", "not a database of results");

@@ -108,7 +108,7 @@ TEST_CASE("a comment is one paragraph of UTF-8 by nobody or an opaque id") {
     CHECK(comment.number == 0);
   }
   Comment named = comment_on(1, "x", "Ada Lovelace");
-  CHECK_THROWS_WITH(database.add(named), Catch::Contains("author: 'Ada Lovelace' is not an opaque id"));
+  CHECK_THROWS_WITH(database.add(named), Catch::Contains("author: 'Ada Lovelace' is not an id"));
   Comment lost = comment_on(7, "x");
   CHECK_THROWS_WITH(database.add(lost), Catch::Contains("there is no attempt 7"));
   CHECK(database.comments().empty());
