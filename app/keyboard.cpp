@@ -126,8 +126,9 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
     if (slides) pose = hand.slide(*pose, ProbeHand::slide_in_patient(*pose, slide));
     if (pose && press_mm != 0) pose = hand.press(*pose, press_mm);
     const double turn = kTurn_deg_s * amount;
-    if (pose && turns) pose = ProbeHand::turn(*pose, tilt * turn, rotation * turn, rock * turn);
-    return pose;
+    if (!pose || !turns) return pose;
+    const auto turned = hand.turn_on_skin(*pose, tilt * turn, rotation * turn, rock * turn);
+    return turned || (!slides && press_mm == 0) ? turned : pose;
   });
   return true;
 }

@@ -190,6 +190,23 @@ Pose ProbeHand::turn(const Pose& from, double tilt_deg, double rotation_deg, dou
   return {orthonormal(from.rotation * glm::mat3_cast(glm::angleAxis(angle, angles / angle))), from.translation};
 }
 
+bool ProbeHand::nearly_lies(const Pose& pose) const {
+  constexpr double kFew_deg = 5;
+  const auto here = contact(pose);
+  return here && glm::dot(here->inward, pose.rotation[1]) < std::cos(glm::radians(kMostTilted_deg - kFew_deg));
+}
+
+std::optional<Pose> ProbeHand::turn_on_skin(const Pose& from, double tilt_deg, double rotation_deg,
+                                            double rock_deg) const {
+  constexpr double kRounding = 1e-9;
+  const Pose to = turn(from, tilt_deg, rotation_deg, rock_deg);
+  const auto here = contact(from);
+  if (!here) return to;
+  const double before = glm::dot(here->inward, from.rotation[1]), after = glm::dot(here->inward, to.rotation[1]);
+  if (after < std::cos(glm::radians(kMostTilted_deg)) && after < before - kRounding) return std::nullopt;
+  return to;
+}
+
 std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const {
   constexpr double kSight_mm = 3000;
   const auto met = skin(eye, direction, kSight_mm);

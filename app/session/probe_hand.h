@@ -42,6 +42,11 @@ public:
   /// Returns the pose rotated about the middle of the face, in the probe's frame, degrees: tilt (about x, sweeps the
   /// plane), rotation (about the beam) and rock (about z, in the plane).
   static Pose turn(const Pose& from, double tilt_deg, double rotation_deg, double rock_deg);
+  /// Returns whether turn_on_skin() lets the probe be tilted by a few degrees more at most.
+  bool nearly_lies(const Pose& pose) const;
+  /// Returns turn(). Empty if the beam came farther than kMostTilted_deg from straight into the skin by it, where the
+  /// handle would lie on the body.
+  std::optional<Pose> turn_on_skin(const Pose& from, double tilt_deg, double rotation_deg, double rock_deg) const;
 
   /// Returns the pose where a line of sight (patient, mm; unit direction) meets the skin, oriented to the skin there as
   /// it was before. A lifted probe is put down, and one that faced no skin is put straight onto it. Empty if the line
@@ -50,6 +55,7 @@ public:
 
   static constexpr double kDeepest_mm = 15;
   static constexpr double kFarthest_mm = 30;
+  static constexpr double kMostTilted_deg = 75;
 
 private:
   struct Contact {

@@ -210,13 +210,14 @@ bool Session::looks_past_ct() const {
 }
 
 void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion) {
-  constexpr double kEdgeShown_s = 1.5;
+  constexpr double kStopShown_s = 1.5;
   take_probe();
   if (holder_ != Holder::learner) return;
   const Pose from = learner_->pose();
   const std::optional<Pose> to = motion(hand_, from);
-  edge_shown_until_s_ = to ? 0 : now_s_ + kEdgeShown_s;
-  if (to) push(*learner_, from, *to);
+  stop_shown_until_s_ = to ? 0 : now_s_ + kStopShown_s;
+  if (to) return push(*learner_, from, *to);
+  stop_ = hand_.nearly_lies(from) ? Stop::tilted : Stop::at_edge;
 }
 
 void Session::act(const Action& action) {

@@ -116,10 +116,13 @@ public:
   /// run; else practice goes on. Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
   /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
-  /// leaves the probe where it is, and stopped_at_edge() reports it.
+  /// leaves the probe where it is, and stop() reports it.
   void move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion);
-  /// Returns whether a motion has just found no skin to go on, as at the end of the CT.
-  bool stopped_at_edge() const { return now_s_ < edge_shown_until_s_; }
+  /// Why a motion left the probe where it is: there is no skin to go on, as at the end of the CT, or the probe would
+  /// lie on the body.
+  enum class Stop { none, at_edge, tilted };
+  /// Returns what has just stopped a motion.
+  Stop stop() const { return now_s_ < stop_shown_until_s_ ? stop_ : Stop::none; }
   /// Returns whether most of the picture's central beam lies where the CT ends towards head or feet, so that the
   /// picture is dark.
   bool looks_past_ct() const;
@@ -213,7 +216,8 @@ private:
   PoseHistory history_;  ///< of a live tracker
   std::optional<PoseEstimate> pose_estimate_;
   double now_s_ = 0;
-  double last_usable_s_ = 0, attempt_began_s_ = 0, edge_shown_until_s_ = 0;
+  double last_usable_s_ = 0, attempt_began_s_ = 0, stop_shown_until_s_ = 0;
+  Stop stop_ = Stop::none;
   ButtonPresses presses_;
   std::uint32_t pressed_ = 0;  ///< for the next sample
   bool go_on_ = false;

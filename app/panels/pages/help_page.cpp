@@ -88,7 +88,7 @@ Help help_of(HelpTopic topic) {
       return {
           "Help: the start page",
           "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
-          "which tracker. The mouse can always move the probe.",
+          "which tracker. Mouse and keyboard can take the probe over from a tracker at any time; Tab gives it back.",
           keys_of({{{"Up, Down", "choose what to do"},
                     {"Enter", "begin it"},
                     {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},

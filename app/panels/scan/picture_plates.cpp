@@ -6,6 +6,18 @@
 
 namespace insonate::ui {
 
+const char* stop_words(Session::Stop stop) {
+  switch (stop) {
+    case Session::Stop::none:
+      return "";
+    case Session::Stop::at_edge:
+      return "The probe stays on the skin, which ends where the CT ends";
+    case Session::Stop::tilted:
+      return "Tilted farther, the probe would lie on the body";
+  }
+  return "";
+}
+
 ImTextureID id_of(const gl::Texture& texture) {
   return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }

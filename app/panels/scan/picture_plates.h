@@ -4,13 +4,14 @@
 
 #include "app/panels/widgets/theme.h"
 #include "app/panels/widgets/widgets.h"
+#include "app/session/session.h"
 #include "sim/gl/objects.h"
 #include "sim/view/edge_letters.h"
 
 namespace insonate::ui {
 
-/// Explains why a probe that is moved does not follow (Session::stopped_at_edge()).
-inline constexpr char kStopWords[] = "The probe stays on the skin, which ends where the CT ends";
+/// Returns why a probe that is moved does not follow; empty if nothing has stopped it.
+const char* stop_words(Session::Stop stop);
 
 // What lies over every picture of the patient.
 

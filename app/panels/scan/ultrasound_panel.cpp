@@ -146,7 +146,7 @@ bool asks_to_place(const Session& session) {
 /// @param prompts  whether it says what to do next
 std::string state_text(const Session& session, const PictureTools& tools, bool prompts) {
   // While a button is down, as when the probe is dragged, the 3D view says it.
-  if (session.stopped_at_edge() && !ImGui::IsMouseDown(0)) return kStopWords;
+  if (session.stop() != Session::Stop::none && !ImGui::IsMouseDown(0)) return stop_words(session.stop());
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
   const bool places = asks_to_place(session) || tools.in_hand();
   return prompts && PictureTools::ready(session) && places ? "Frozen:  " + tool_prompt(tools) : "Frozen";
@@ -250,7 +250,8 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
     const double turn_deg = 3.0 * io.MouseWheel;
-    session.move_probe([&](const ProbeHand&, const Pose& pose) { return ProbeHand::turn(pose, 0, turn_deg, 0); });
+    session.move_probe(
+        [&](const ProbeHand& hand, const Pose& pose) { return hand.turn_on_skin(pose, 0, turn_deg, 0); });
   }
   if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   constexpr double kDegPerPixel = 0.15;
@@ -259,7 +260,7 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   const glm::dvec2 mm = glm::dvec2(to_marker * io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
   session.move_probe([&](const ProbeHand& hand, const Pose& pose) -> std::optional<Pose> {
     if (io.KeyShift)
-      return ProbeHand::turn(pose, kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
+      return hand.turn_on_skin(pose, kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
     return hand.slide(pose, mm);
   });
 }

@@ -125,11 +125,11 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
   page.take_bottom(theme.px(14));
   bool close = false;
   const auto next = [&](const char* id, float width, std::string_view text, ButtonKind kind = ButtonKind::normal,
-                        bool enabled = true) {
+                        bool enabled = true, std::string_view tip = {}) {
     const Rect place = buttons.take_right(theme.text_px(width));
     buttons.take_right(theme.px(10));
     places[std::string("setup_") + id] = place;
-    return button(theme, id, place, text, kind, enabled);
+    return button(theme, id, place, text, kind, enabled, tip);
   };
   const bool done = wizard.view().done, last = done && wizard.current() + 1 == kSetupSteps.size();
   const bool heard = wizard.tracker_state().condition != TrackerCondition::waiting;
@@ -145,7 +145,8 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
     wizard.undo();
   if (next("close", 130, "Close  (Esc)")) close = true;
   if (kSetupSteps[wizard.current()] == "landmarks" && wizard.can_be_moved() &&
-      next("moved", 270, "Only mannequin or base moved", wizard.moved() ? ButtonKind::chosen : ButtonKind::normal))
+      next("moved", 270, "Only mannequin or base moved", wizard.moved() ? ButtonKind::chosen : ButtonKind::normal, true,
+           "Touches the landmarks of the last time again, and leaves the other steps as they are"))
     wizard.set_moved(!wizard.moved());
   draw_text(buttons, theme.small_text, heard ? colour::kMuted : colour::kAmber,
             heard ? "Each finished step is kept in " + wizard.file().string()

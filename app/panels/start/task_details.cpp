@@ -220,16 +220,20 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
   struct File {
     const char* id;
     const char* text;
+    const char* tip;
     const char* otherwise;
     const std::filesystem::path& file;
     Wanted wanted;
   };
   for (const File& each :
-       {File{"browse", "Calibration\u2026", "the last set-up of this tracker, if there is one", page.calibration(),
-             Wanted::calibration},
-        File{"landmarks", "Landmarks\u2026", "those of the built-in patient", page.landmarks(), Wanted::landmarks},
-        File{"drawing", "Drawing of the probe\u2026", "none: the probe's face is touched", page.drawing(),
-             Wanted::drawing}}) {
+       {File{"browse", "Calibration\u2026", "Goes on with the set-up in a file of an earlier one",
+             "the last set-up of this tracker, if there is one", page.calibration(), Wanted::calibration},
+        File{"landmarks", "Landmarks\u2026",
+             "Where the places to touch lie in another patient's CT, as a file lists them",
+             "those of the built-in patient", page.landmarks(), Wanted::landmarks},
+        File{"drawing", "Drawing of the probe\u2026",
+             "How the probe's face lies to its tip, as a file says it: then the face is not touched",
+             "none: the probe's face is touched", page.drawing(), Wanted::drawing}}) {
     const std::string file = each.file.empty() ? each.otherwise : each.file.string();
     const float wide = theme.text_px(220), gap = theme.px(12), reset_wide = each.file.empty() ? 0 : theme.px(80 + 8);
     const float height = paragraph_height(theme.text, file, rest.w - wide - gap - reset_wide);
@@ -237,7 +241,8 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
     rest.take_top(theme.px(8));
     places[each.id] = row.take_left(wide);
     row.take_left(gap);
-    if (button(theme, each.id, places[each.id], each.text)) answer = {StartAnswer::Kind::browse, each.wanted};
+    if (button(theme, each.id, places[each.id], each.text, ButtonKind::normal, true, each.tip))
+      answer = {StartAnswer::Kind::browse, each.wanted};
     if (!each.file.empty()) {
       const std::string reset = std::string(each.id) + "_reset";
       places[reset] = row.take_right(theme.px(80));

@@ -54,14 +54,14 @@ bool on_probe(const Theme& theme, const view::OrbitCamera& camera, const Rect& p
 }
 
 // Explains above the row of buttons, beside the axes, why the probe does not follow.
-void draw_stop(const Theme& theme, const Rect& panel) {
+void draw_stop(const Theme& theme, const Rect& panel, const char* words) {
   const float margin = theme.px(12), widest = panel.w - theme.px(76) - 3 * margin;
-  const float width = std::min(text_width(theme.strong, kStopWords), widest);
-  const float height = paragraph_height(theme.strong, kStopWords, width + 1);
+  const float width = std::min(text_width(theme.strong, words), widest);
+  const float height = paragraph_height(theme.strong, words, width + 1);
   const Rect plate{panel.x + margin / 2, panel.y + panel.h - theme.px(40) - height - margin, width + 2 * margin,
                    height + margin};
   fill(plate, colour::kAccentDark, theme.px(4));
-  draw_paragraph({plate.x + margin, plate.y + margin / 2, width + 1, height}, theme.strong, colour::kText, kStopWords);
+  draw_paragraph({plate.x + margin, plate.y + margin / 2, width + 1, height}, theme.strong, colour::kText, words);
 }
 
 }  // namespace
@@ -99,7 +99,8 @@ bool SpacePanel::draw(const Theme& theme, const Rect& panel, Session* session, P
     session->move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, to.eye, to.direction); });
   }
   draw_title(theme, panel, "Patient");
-  if (session && session->stopped_at_edge() && ImGui::IsMouseDown(0)) draw_stop(theme, panel);
+  if (session && session->stop() != Session::Stop::none && ImGui::IsMouseDown(0))
+    draw_stop(theme, panel, stop_words(session->stop()));
   draw_orientation(theme, panel, camera);
   return double_clicked;
 }

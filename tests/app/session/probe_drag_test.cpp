@@ -88,7 +88,7 @@ public:
       const view::LineOfSight line = view::line_of_sight(camera, pointer, kWidth, kHeight);
       session_.move_probe(
           [&](const ProbeHand& hand, const Pose& pose) { return hand.put(pose, line.eye, line.direction); });
-      stayed += session_.stopped_at_edge();
+      stayed += session_.stop() == Session::Stop::at_edge;
       session_.advance(now_s_ += 0.1);
     }
     return stayed;
@@ -164,4 +164,12 @@ TEST_CASE("a probe stops where the CT ends, also where it cuts through the lungs
       CHECK(learner.pose() == before);
     }
   CHECK(through_lungs > 50);
+}
+
+TEST_CASE("a hand that tilts no farther than the handle allows can hold each of the patient's views") {
+  const ProbeHand hand(patient());
+  for (const ReferenceView& view : loaded_case()->subject.views) {
+    CAPTURE(view.name);
+    CHECK_FALSE(hand.nearly_lies(view.patient_from_probe));
+  }
 }

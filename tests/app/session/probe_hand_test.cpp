@@ -82,6 +82,27 @@ TEST_CASE("turns are about the middle of the face and in the probe's own frame")
   CHECK(ProbeHand::turn(start, 0, 0, 0) == start);
 }
 
+TEST_CASE("a probe is tilted until it would lie on the body, and back from there") {
+  const auto ct = cylinder();
+  const ProbeHand hand(ct);
+  const double most = ProbeHand::kMostTilted_deg;
+  for (const double sign : {-1.0, 1.0}) {
+    Pose pose = in_front(0);
+    CHECK_FALSE(hand.nearly_lies(pose));
+    int turns = 0;
+    for (; turns < 90; ++turns) {
+      const auto turned = hand.turn_on_skin(pose, sign, 0, 0);
+      if (!turned) break;
+      pose = *turned;
+    }
+    // The slope of 2 mm voxels, taken over 36 mm of them.
+    CHECK(turns == Approx(most).margin(7));
+    CHECK(hand.nearly_lies(pose));
+    CHECK(hand.turn_on_skin(pose, 0, 40, 0));
+    CHECK(hand.turn_on_skin(pose, -sign, 0, 0));
+  }
+}
+
 TEST_CASE("pressing ends at what a patient bears, lifting where contact is long lost") {
   const auto ct = cylinder();
   const ProbeHand hand(ct);

@@ -120,12 +120,12 @@ TEST_CASE("a motion that finds no skin leaves the probe where it is, and is repo
   const Pose before = *session.shown_pose();
   session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
   session.advance(0.5);
-  CHECK(session.stopped_at_edge());
+  CHECK(session.stop() == Session::Stop::at_edge);
   CHECK(*session.shown_pose() == before);
   session.move_probe([](const ProbeHand&, const Pose& from) { return Pose{from.rotation, from.point({7, 0, 0})}; });
   session.advance(0.6);
-  CHECK_FALSE(session.stopped_at_edge());
+  CHECK(session.stop() == Session::Stop::none);
   session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
   session.advance(5);
-  CHECK_FALSE(session.stopped_at_edge());
+  CHECK(session.stop() == Session::Stop::none);
 }
