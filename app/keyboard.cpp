@@ -121,15 +121,15 @@ bool Keyboard::move_probe(Session& session, double elapsed_s) const {
                rock = axis(GLFW_KEY_W, GLFW_KEY_S);
   const bool slides = slide.x != 0 || slide.y != 0, turns = tilt != 0 || rotation != 0 || rock != 0;
   if (!slides && !turns && press_mm == 0) return false;
-  session.move_probe([&](const ProbeHand& hand, const Pose& from) -> std::optional<Pose> {
-    std::optional<Pose> pose = from;
-    if (slides) pose = hand.slide(*pose, ProbeHand::slide_in_patient(*pose, slide));
-    if (pose && press_mm != 0) pose = hand.press(*pose, press_mm);
-    const double turn = kTurn_deg_s * amount;
-    if (!pose || !turns) return pose;
-    const auto turned = hand.turn_on_skin(*pose, tilt * turn, rotation * turn, rock * turn);
-    return turned || (!slides && press_mm == 0) ? turned : pose;
-  });
+  if (slides || press_mm != 0)
+    session.move_probe([&](const ProbeHand& hand, const Pose& from) -> std::optional<Pose> {
+      std::optional<Pose> pose = from;
+      if (slides) pose = hand.slide(*pose, ProbeHand::slide_in_patient(*pose, slide));
+      if (pose && press_mm != 0) pose = hand.press(*pose, press_mm);
+      return pose;
+    });
+  const double turn = kTurn_deg_s * amount;
+  if (turns) session.turn_probe(tilt * turn, rotation * turn, rock * turn);
   return true;
 }
 

@@ -31,6 +31,9 @@ std::string in_words(std::string name);
 /// Returns how a step ended: "view held".
 std::string in_words(StepOutcome outcome);
 
+/// What the word "critical" beside a criterion means.
+inline constexpr const char* kCriticalMeans = "A critical criterion that earns nothing fails the exam.";
+
 /// Returns a step's points: "2 of 3 points", and for one that was not done, that what was reached is scored. Returns
 /// "does not count" for a warm-up and for a step without criteria.
 std::string score_in_words(const StepResult& step);

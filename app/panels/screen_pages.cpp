@@ -270,7 +270,7 @@ void Screen::open(const std::filesystem::path& path, Trainer& trainer) {
 void Screen::quit(Trainer& trainer) {
   const bool hands_in = takes_exam(trainer) && !trainer.can_leave();
   if (hands_in && !asked_before(asked_to_quit_s_))
-    return show_note("This exam counts. To end it here and hand it in, do that once more now");
+    return show_note("This exam counts: quit once more now to end it here and hand it in");
   const bool asked = std::ranges::find(pages_, Overlay::leave) != pages_.end() && leaving_.ends;
   if (hands_in || asked)
     quits_ = true;

@@ -37,7 +37,7 @@ enum class CrossHair { fan, face };
 
 /// How the CT is shown. None of it changes what is computed or scored.
 struct CtLook {
-  WindowLevel grey;      ///< of all CT pictures; each patient begins with the usual one
+  WindowLevel grey;      ///< of all CT pictures; a patient that is opened begins with the usual one
   bool outlines = true;  ///< the labels' edges in their organs' colours
   BlendColour blend_colour = BlendColour::grey;
   CrossHair cross_hair = CrossHair::fan;

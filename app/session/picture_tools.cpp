@@ -85,6 +85,7 @@ void PictureTools::choose(Tool tool) {
 }
 
 bool PictureTools::has_all() const {
+  if (in_hand_ || place_ || chosen_slot_) return false;
   if (measuring()) return annotations_.measured().size() >= measuring()->slots.size();
   if (labelling()) return annotations_.labels().size() >= names_.size();
   return tool_ == Tool::point && annotations_.point();

@@ -40,7 +40,8 @@ public:
   const MeasureInput* measuring() const { return std::get_if<MeasureInput>(&input_); }
   /// Returns whether the current step asks for names.
   bool labelling() const { return std::holds_alternative<LabelInput>(input_); }
-  /// Returns whether all that the current step asks for has been placed.
+  /// Returns whether all that the current step asks to place is placed, and nothing was begun or chosen since. False
+  /// in a step that asks for none.
   bool has_all() const;
   /// Returns the slot of the next caliper.
   int slot() const;

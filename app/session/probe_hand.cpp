@@ -24,7 +24,7 @@ constexpr double kCut_slices = 0.5;
 constexpr double kSlope_mm = 18;
 constexpr double kSteepest_mm = 2 * kSlope_mm;
 /// A beam that runs closer along the skin than this faces none.
-constexpr double kMinFacing = 0.5;
+const double kMinFacing = std::cos(glm::radians(ProbeHand::kMostTilted_deg));
 
 /// Returns the smallest rotation that takes one unit vector to another.
 glm::dmat3 turn_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -140,6 +140,15 @@ std::optional<ProbeHand::Contact> ProbeHand::contact(const Pose& pose) const {
   return Contact{*point, inward(*point).value_or(pose.rotation[1])};
 }
 
+/// Returns the skin's normal over the face. Where the beam of a probe that is tilted and pressed enters the skin, the
+/// skin has another one.
+std::optional<glm::dvec3> ProbeHand::inward_at_face(const Pose& pose) const {
+  const auto here = contact(pose);
+  if (!here) return std::nullopt;
+  const auto over_face = skin(pose.translation - kBehind_mm * here->inward, here->inward, kSearch_mm);
+  return over_face ? inward(*over_face) : here->inward;
+}
+
 Pose ProbeHand::settle(const Pose& from, const Contact& old, const Contact& reached) {
   const double pressed = glm::dot(from.translation - old.point, from.rotation[1]);
   Pose to{orthonormal(turn_between(old.inward, reached.inward) * from.rotation), reached.point};
@@ -190,21 +199,20 @@ Pose ProbeHand::turn(const Pose& from, double tilt_deg, double rotation_deg, dou
   return {orthonormal(from.rotation * glm::mat3_cast(glm::angleAxis(angle, angles / angle))), from.translation};
 }
 
-bool ProbeHand::nearly_lies(const Pose& pose) const {
-  constexpr double kFew_deg = 5;
-  const auto here = contact(pose);
-  return here && glm::dot(here->inward, pose.rotation[1]) < std::cos(glm::radians(kMostTilted_deg - kFew_deg));
-}
-
 std::optional<Pose> ProbeHand::turn_on_skin(const Pose& from, double tilt_deg, double rotation_deg,
                                             double rock_deg) const {
-  constexpr double kRounding = 1e-9;
-  const Pose to = turn(from, tilt_deg, rotation_deg, rock_deg);
-  const auto here = contact(from);
-  if (!here) return to;
-  const double before = glm::dot(here->inward, from.rotation[1]), after = glm::dot(here->inward, to.rotation[1]);
-  if (after < std::cos(glm::radians(kMostTilted_deg)) && after < before - kRounding) return std::nullopt;
-  return to;
+  constexpr double kRounding = 1e-9, kLeast_deg = 0.1;
+  const std::optional<glm::dvec3> into_skin = inward_at_face(from);
+  if (!into_skin) return turn(from, tilt_deg, rotation_deg, rock_deg);
+  const double before = glm::dot(*into_skin, from.rotation[1]);
+  for (double share = 1;; share /= 2) {
+    const bool lays_down = share * std::hypot(tilt_deg, rock_deg) > kLeast_deg;
+    if (!lays_down) share = 0;
+    const Pose to = turn(from, share * tilt_deg, rotation_deg, share * rock_deg);
+    const double after = glm::dot(*into_skin, to.rotation[1]);
+    if (after >= kMinFacing || after >= before - kRounding) return to == from ? std::nullopt : std::optional(to);
+    if (!lays_down) return std::nullopt;
+  }
 }
 
 std::optional<Pose> ProbeHand::put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const {

@@ -42,20 +42,18 @@ public:
   /// Returns the pose rotated about the middle of the face, in the probe's frame, degrees: tilt (about x, sweeps the
   /// plane), rotation (about the beam) and rock (about z, in the plane).
   static Pose turn(const Pose& from, double tilt_deg, double rotation_deg, double rock_deg);
-  /// Returns whether turn_on_skin() lets the probe be tilted by a few degrees more at most.
-  bool nearly_lies(const Pose& pose) const;
-  /// Returns turn(). Empty if the beam came farther than kMostTilted_deg from straight into the skin by it, where the
-  /// handle would lie on the body.
+  /// Returns turn(), with as much of tilt and rock as keeps the beam within kMostTilted_deg of straight into the skin:
+  /// farther, the handle would come to lie on the body. Empty if nothing is left of the turn.
   std::optional<Pose> turn_on_skin(const Pose& from, double tilt_deg, double rotation_deg, double rock_deg) const;
 
   /// Returns the pose where a line of sight (patient, mm; unit direction) meets the skin, oriented to the skin there as
-  /// it was before. A lifted probe is put down, and one that faced no skin is put straight onto it. Empty if the line
-  /// meets no skin.
+  /// it was before. A lifted probe is put down, and one that faced no skin, or was tilted farther than kMostTilted_deg,
+  /// is put straight onto it. Empty if the line meets no skin.
   std::optional<Pose> put(const Pose& from, const glm::dvec3& eye, const glm::dvec3& direction) const;
 
   static constexpr double kDeepest_mm = 15;
   static constexpr double kFarthest_mm = 30;
-  static constexpr double kMostTilted_deg = 75;
+  static constexpr double kMostTilted_deg = 60;
 
 private:
   struct Contact {
@@ -65,6 +63,7 @@ private:
   std::optional<glm::dvec3> skin(const glm::dvec3& from, const glm::dvec3& direction, double farthest_mm) const;
   std::optional<glm::dvec3> inward(const glm::dvec3& point) const;
   std::optional<Contact> contact(const Pose& pose) const;
+  std::optional<glm::dvec3> inward_at_face(const Pose& pose) const;
   /// Returns the pose that relates to the skin at `reached` as `from` relates to it at `old`.
   static Pose settle(const Pose& from, const Contact& old, const Contact& reached);
 

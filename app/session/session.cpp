@@ -210,14 +210,29 @@ bool Session::looks_past_ct() const {
 }
 
 void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion) {
-  constexpr double kStopShown_s = 1.5;
   take_probe();
   if (holder_ != Holder::learner) return;
   const Pose from = learner_->pose();
-  const std::optional<Pose> to = motion(hand_, from);
-  stop_shown_until_s_ = to ? 0 : now_s_ + kStopShown_s;
-  if (to) return push(*learner_, from, *to);
-  stop_ = hand_.nearly_lies(from) ? Stop::tilted : Stop::at_edge;
+  follow(from, motion(hand_, from), Stop::at_edge);
+}
+
+void Session::turn_probe(double tilt_deg, double rotation_deg, double rock_deg) {
+  take_probe();
+  if (holder_ != Holder::learner) return;
+  const Pose from = learner_->pose();
+  follow(from, hand_.turn_on_skin(from, tilt_deg, rotation_deg, rock_deg), Stop::tilted);
+}
+
+/// Moves the learner's probe, or shows what has stopped it.
+void Session::follow(const Pose& from, const std::optional<Pose>& to, Stop otherwise) {
+  constexpr double kStopShown_s = 1.5;
+  if (to) {
+    push(*learner_, from, *to);
+    if (stop_ == otherwise) stop_ = Stop::none;
+  } else {
+    stop_ = otherwise;
+    stop_shown_until_s_ = now_s_ + kStopShown_s;
+  }
 }
 
 void Session::act(const Action& action) {

@@ -115,13 +115,15 @@ public:
   /// Gives the probe back to the tracker. Its exam begins anew if the probe was taken in one or the learner's own steps
   /// run; else practice goes on. Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
-  /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
-  /// leaves the probe where it is, and stop() reports it.
-  void move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion);
-  /// Why a motion left the probe where it is: there is no skin to go on, as at the end of the CT, or the probe would
-  /// lie on the body.
+  /// Why the probe stays where it is: there is no skin to go on, as at the end of the CT, or it would lie on the body.
   enum class Stop { none, at_edge, tilted };
-  /// Returns what has just stopped a motion.
+  /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
+  /// leaves the probe where it is, and stop() is Stop::at_edge for a moment.
+  void move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion);
+  /// Turns the probe about the middle of its face (ProbeHand::turn_on_skin()). Takes it first if needed. If nothing is
+  /// left of the turn, stop() is Stop::tilted for a moment.
+  void turn_probe(double tilt_deg, double rotation_deg, double rock_deg);
+  /// Returns what has just stopped the probe.
   Stop stop() const { return now_s_ < stop_shown_until_s_ ? stop_ : Stop::none; }
   /// Returns whether most of the picture's central beam lies where the CT ends towards head or feet, so that the
   /// picture is dark.
@@ -182,6 +184,7 @@ public:
   double now_s() const { return now_s_; }
 
 private:
+  void follow(const Pose& from, const std::optional<Pose>& to, Stop otherwise);
   std::unique_ptr<Tracker> open_fresh() const;
   Machine first_machine() const;
   void restart_tracker();

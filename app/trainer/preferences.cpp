@@ -56,7 +56,7 @@ Preferences read_preferences(const fs::path& file) {
   read.look.tint = choice<Tint>(table, "tint", kTints);
   read.look.layout = choice<LayoutName>(table, "layout", {kLayoutNames.begin(), kLayoutNames.end()});
   read.look.landmarks = table.boolean("landmarks", read.look.landmarks);
-  // Earlier versions kept the grey scale, which is a patient's.
+  // Accepted and not used, so that settings of earlier versions can be read: the grey scale is a patient's.
   table.number("ct_window", {WindowLevel::kMinWindow, WindowLevel::kMaxWindow}, 0);
   table.number("ct_level", {WindowLevel::kMinLevel, WindowLevel::kMaxLevel}, 0);
   read.ct.outlines = table.boolean("ct_outlines", read.ct.outlines);

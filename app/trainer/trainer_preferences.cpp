@@ -104,7 +104,9 @@ void Trainer::keep_preferences() {
 }
 
 void Trainer::keep_ct_look() {
-  if (preferences_.ct != kept_ct_look_) keep_preferences();
+  CtLook kept = preferences_.ct;
+  kept.grey = kept_ct_look_.grey;  // which the file does not hold
+  if (kept != kept_ct_look_) keep_preferences();
 }
 
 void Trainer::open_results() {

@@ -163,8 +163,8 @@ void Trainer::end_setup() {
   const bool is_begun = made.axes || made.tip || made.face || made.mannequin || made.lag || uses_calibration(current_);
   const std::string title = setup()->title_of(missing);
   const bool is_own_mode = options_.mode == Mode::setup, from_start_page = given_.mode != Mode::setup;
+  if (missing.empty()) notices_.push_back({"The set-up is complete: scans with this tracker use it", setup()->file()});
   if (is_own_mode && (from_start_page || !missing.empty())) {
-    if (missing.empty()) notices_.push_back({"The set-up is complete: what comes next uses it", setup()->file()});
     show_start_page();
     start_page()->task = missing.empty() ? Task::practice : Task::setup;
     if (missing.empty() && is_rehearsal(start_page()->tracker())) start_page()->scenario.reset();

@@ -52,7 +52,7 @@ std::string row(const CriterionScore& m) {
   const double share = m.weight > 0 ? m.points / m.weight : 0;
   const char* grade = share >= 1 ? "all" : share > 0 ? "some" : "none";
   std::string html = "<tr class='" + std::string(grade) + "'><td><b>" + escaped(title_of(m.metric)) + "</b>";
-  if (m.critical) html += " <span class='critical'>critical</span>";
+  if (m.critical) html += " <span class='critical' title='" + std::string(kCriticalMeans) + "'>critical</span>";
   html += "<small>" + escaped(unbroken(m.why)) + "</small></td>";
   html += "<td class='number'>" + (m.value ? in_words(m.metric, *m.value) : "\u2013") + "</td>";
   html += "<td class='number'>" + in_words(m.metric, m.full) + " \u2026 " + in_words(m.metric, m.zero) + "</td>";
@@ -185,6 +185,11 @@ std::string verdict(const ExamResult& result) {
           "%'></i><b style='left:" + fixed(result.pass_mark_percent, 1) + "%'></b></div>";
   html += "<p>" + short_number(result.points) + " of " + short_number(result.points_possible) + " points; " +
           short_number(result.pass_mark_percent) + " % are needed.</p>";
+  const auto any_critical = [](const auto& scored) {
+    return std::ranges::any_of(scored.criteria, [](const CriterionScore& mark) { return mark.critical; });
+  };
+  if (any_critical(result) || std::ranges::any_of(result.steps, any_critical))
+    html += "<p>" + std::string(kCriticalMeans) + "</p>";
   const auto guided = std::ranges::count_if(result.steps, [](const StepResult& s) { return s.guide_times > 0; });
   if (guided > 0)
     html += "<p>The guide to the view was used in " + std::to_string(guided) + " of " +

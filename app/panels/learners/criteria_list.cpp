@@ -59,6 +59,7 @@ void draw_row(const Theme& theme, const Rect& row, const CriterionTrend& trend, 
   const std::string part =
       trend.step ? std::to_string(*trend.step + 1) + ". " + trend.step_title : std::string("Whole exam");
   draw_text(name.take_top(theme.px(18)), theme.small_text, colour::kMuted, part + (trend.critical ? ", critical" : ""));
+  if (trend.critical) draw_tooltip(theme, row, kCriticalMeans);
   Rect bars = columns.bars.inset(0, theme.px(6));
   draw_bars(theme, bars.take_top(theme.px(kCriterionRow - 12)), trend);
   Rect lost = columns.lost.inset(0, theme.px(3));

@@ -88,7 +88,8 @@ Help help_of(HelpTopic topic) {
       return {
           "Help: the start page",
           "Choose on the left what to do, in the middle on which patient, and on the right who is learning and with "
-          "which tracker. Mouse and keyboard can take the probe over from a tracker at any time; Tab gives it back.",
+          "which tracker. Mouse and keyboard can take the probe over from a tracker, but for an exam that counts; Tab "
+          "gives it back.",
           keys_of({{{"Up, Down", "choose what to do"},
                     {"Enter", "begin it"},
                     {"Ctrl O", "open a case, CT, scenario or recorded scan; or drop it on the window"},
@@ -190,7 +191,8 @@ Help help_of(HelpTopic topic) {
     case HelpTopic::score:
       return {
           "Help: the score",
-          "Each step has its points and, where some are missing, the reason. The report has all of it, with pictures "
+          "Each step has its points and, where some are missing, the reason. A critical criterion that earns nothing "
+          "fails the exam. The report has all of it, with pictures "
           "and the probe's path, for printing or for a teacher.",
           keys_of({{{"Escape", "close the sheet, and go on scanning"}, {"F4", "close the sheet; show it again"}},
                    kWindow})};

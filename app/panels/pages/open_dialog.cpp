@@ -73,7 +73,7 @@ const char* what_is_shown(Wanted wanted) {
 
 void OpenDialog::open(Wanted wanted) {
   std::error_code error;
-  // What could not be opened because of a slip is mended, not typed again.
+  // A path with a slip in it can be corrected instead of typed again.
   const std::filesystem::path typed = wanted == wanted_ ? path_.data() : "";
   wanted_ = wanted;
   go_to(list_.folder.empty() ? std::filesystem::current_path(error) : list_.folder);

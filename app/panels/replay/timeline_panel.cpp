@@ -86,7 +86,7 @@ void draw_steps(const Theme& theme, const Rect& lane, const TimeScale& scale, co
   }
 }
 
-/// Draws when the picture was within tolerance, and when no pose came.
+/// Draws when the picture was the view that the step asks for, and when no pose came.
 void draw_condition(const Theme& theme, const Rect& strip, const TimeScale& scale, const RecordedRun& run) {
   fill(strip, colour::kRaised);
   const auto draw = [&](auto&& condition, ImU32 ink) {
@@ -98,7 +98,7 @@ void draw_condition(const Theme& theme, const Rect& strip, const TimeScale& scal
       fill({left, strip.y, std::max(right - left, theme.px(1)), strip.h}, ink);
     }
   };
-  draw([](const RunMoment& moment) { return moment.within_tolerance; }, colour::kAccent);
+  draw([](const RunMoment& moment) { return moment.within_tolerance && moment.view; }, colour::kAccent);
   draw([](const RunMoment& moment) { return moment.last_usable_s != moment.time_s; }, colour::kAmber);
 }
 

@@ -167,7 +167,7 @@ void take_pointer(const Theme& theme, const PlaneOnScreen& plane, Session& sessi
 std::string tool_prompt(const PictureTools& tools) {
   using Tool = PictureTools::Tool;
   const bool begun = tools.in_hand().has_value();
-  if (!begun && tools.has_all()) return "All is placed";
+  if (tools.has_all()) return "All is placed";
   switch (tools.tool()) {
     case Tool::distance:
       return begun ? "Click the other end" : "Click one end, then the other";

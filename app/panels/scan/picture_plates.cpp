@@ -13,7 +13,7 @@ const char* stop_words(Session::Stop stop) {
     case Session::Stop::at_edge:
       return "The probe stays on the skin, which ends where the CT ends";
     case Session::Stop::tilted:
-      return "Tilted farther, the probe would lie on the body";
+      return "Any farther, the handle would lie on the body";
   }
   return "";
 }

@@ -46,7 +46,7 @@ void draw_verdict(const Theme& theme, Rect head, const ExamResult& result, const
   draw_text(head.take_top(theme.px(20)), theme.small_text, colour::kMuted, line);
 }
 
-/// Whether a line below says why: where points are missing. The report says it of all.
+/// Returns whether a line below a mark says why: where points are missing. The report says it of every mark.
 bool has_reason(const CriterionScore& mark) {
   return mark.points < mark.weight && !mark.why.empty();
 }
@@ -62,7 +62,8 @@ void draw_mark(const Theme& theme, const Rect& row, const CriterionScore& mark) 
             in_words(mark.metric, mark.full) + " \u2013 " + in_words(mark.metric, mark.zero), Align::right);
   draw_text(columns.points, theme.text, ink, short_number(mark.points) + " / " + short_number(mark.weight),
             Align::right);
-  if (!has_reason(mark)) draw_tooltip(theme, row, mark.why);
+  const std::string why = has_reason(mark) ? "" : mark.why;
+  draw_tooltip(theme, row, mark.critical ? why + (why.empty() ? "" : " ") + kCriticalMeans : why);
 }
 
 float reason_indent(const Theme& theme) {
@@ -81,8 +82,10 @@ float height_of(const Theme& theme, const std::vector<CriterionScore>& marks, fl
   return height;
 }
 
-/// A text whose first line is in the middle of a row.
-void draw_lines(const Theme& theme, Rect rows, float row, ImU32 ink, const std::string& text) {
+/// Draws a text whose first line is in the middle of a row.
+/// @param width  with which height_of() has been asked
+void draw_lines(const Theme& theme, Rect rows, float row, float width, ImU32 ink, const std::string& text) {
+  rows.w = width;
   rows.y += (row - theme.small_text->FontSize) / 2;
   draw_paragraph(rows, theme.small_text, ink, text);
 }
@@ -95,8 +98,7 @@ void draw_marks(const Theme& theme, Rect& rows, float row, const std::vector<Cri
     Rect reason = rows.take_top(height_of(theme, mark.why, row, width - indent));
     reason.y -= theme.px(4);
     reason.take_left(indent);
-    reason.w = width - indent;
-    draw_lines(theme, reason, row, colour::kMuted, mark.why);
+    draw_lines(theme, reason, row, width - indent, colour::kMuted, mark.why);
   }
 }
 
@@ -111,10 +113,10 @@ float height_of(const Theme& theme, const Fact& fact, float row, float width) {
 }
 
 /// What the step has found out besides values, such as what was measured.
-void draw_fact(const Theme& theme, Rect rows, float row, const Fact& fact) {
+void draw_fact(const Theme& theme, Rect rows, float row, float width, const Fact& fact) {
   Rect name = rows.take_left(name_width(theme, fact));
   draw_text(name.take_top(row), theme.small_text, colour::kMuted, in_words(fact.first) + ": ");
-  draw_lines(theme, rows, row, colour::kText, fact.second);
+  draw_lines(theme, rows, row, width - name_width(theme, fact), colour::kText, fact.second);
 }
 
 void draw_column_titles(const Theme& theme, const Rect& row) {
@@ -156,7 +158,7 @@ void draw_rows(const Theme& theme, Rect rows, float height, const ExamResult& re
     const StepResult& step = result.steps[i];
     draw_group(theme, rows.take_top(height), std::to_string(i + 1) + "  " + step.title, outcome_text(step));
     for (const Fact& fact : step.facts)
-      draw_fact(theme, rows.take_top(height_of(theme, fact, height, width)), height, fact);
+      draw_fact(theme, rows.take_top(height_of(theme, fact, height, width)), height, width, fact);
     draw_marks(theme, rows, height, step.criteria, width);
   }
   if (result.criteria.empty()) return;

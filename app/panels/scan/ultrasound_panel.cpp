@@ -134,7 +134,8 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
                  lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
-/// Whether something is to be placed in a frozen picture: without steps always, and in a step that asks for it.
+/// Returns whether something may be placed in a frozen picture now: by the step that asks for it, or freely where there
+/// is none.
 bool asks_to_place(const Session& session) {
   const Runner* runner = session.runner();
   if (!runner || session.result() || runner->live().finished) return true;
@@ -249,20 +250,16 @@ void take_mouse(const Theme& theme, const Rect& area, Session& session, const Pl
   if (PictureTools::ready(session)) return take_pointer(theme, plane, session, tools);
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
-    const double turn_deg = 3.0 * io.MouseWheel;
-    session.move_probe(
-        [&](const ProbeHand& hand, const Pose& pose) { return hand.turn_on_skin(pose, 0, turn_deg, 0); });
+    session.turn_probe(0, 3.0 * io.MouseWheel, 0);
   }
   if (!ImGui::IsItemActive() || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   constexpr double kDegPerPixel = 0.15;
   // The tissue follows the pointer, so the probe moves the other way: with the marker on the left that is +x.
   const double to_marker = theme.look().marker == MarkerSide::left ? 1 : -1;
   const glm::dvec2 mm = glm::dvec2(to_marker * io.MouseDelta.x, io.MouseDelta.y) / plane.pixels_per_mm();
-  session.move_probe([&](const ProbeHand& hand, const Pose& pose) -> std::optional<Pose> {
-    if (io.KeyShift)
-      return hand.turn_on_skin(pose, kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
-    return hand.slide(pose, mm);
-  });
+  if (io.KeyShift)
+    return session.turn_probe(kDegPerPixel * io.MouseDelta.y, 0, to_marker * kDegPerPixel * io.MouseDelta.x);
+  session.move_probe([&](const ProbeHand& hand, const Pose& pose) { return hand.slide(pose, mm); });
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ bool draw_setup_page(const Theme& theme, const Rect& screen, SetupWizard& wizard
   if (next("close", 130, "Close  (Esc)")) close = true;
   if (kSetupSteps[wizard.current()] == "landmarks" && wizard.can_be_moved() &&
       next("moved", 270, "Only mannequin or base moved", wizard.moved() ? ButtonKind::chosen : ButtonKind::normal, true,
-           "Touches the landmarks of the last time again, and leaves the other steps as they are"))
+           "Touches the landmarks again that were touched last time, and leaves the other steps as they are"))
     wizard.set_moved(!wizard.moved());
   draw_text(buttons, theme.small_text, heard ? colour::kMuted : colour::kAmber,
             heard ? "Each finished step is kept in " + wizard.file().string()

@@ -226,13 +226,12 @@ StartAnswer draw_setup(const Theme& theme, Rect rest, StartPage& page, std::map<
     Wanted wanted;
   };
   for (const File& each :
-       {File{"browse", "Calibration\u2026", "Goes on with the set-up in a file of an earlier one",
+       {File{"browse", "Calibration\u2026", "Continues the set-up that a file holds",
              "the last set-up of this tracker, if there is one", page.calibration(), Wanted::calibration},
-        File{"landmarks", "Landmarks\u2026",
-             "Where the places to touch lie in another patient's CT, as a file lists them",
+        File{"landmarks", "Landmarks\u2026", "Reads from a file where the places to touch lie in another patient's CT",
              "those of the built-in patient", page.landmarks(), Wanted::landmarks},
         File{"drawing", "Drawing of the probe\u2026",
-             "How the probe's face lies to its tip, as a file says it: then the face is not touched",
+             "Reads from a file how the face lies to the tip, instead of touching it",
              "none: the probe's face is touched", page.drawing(), Wanted::drawing}}) {
     const std::string file = each.file.empty() ? each.otherwise : each.file.string();
     const float wide = theme.text_px(220), gap = theme.px(12), reset_wide = each.file.empty() ? 0 : theme.px(80 + 8);

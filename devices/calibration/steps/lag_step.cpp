@@ -52,7 +52,7 @@ void LagStep::ask(SetupView& view) const {
 
 std::string LagStep::result() const {
   return formatted(
-      "the tracker's poses come %.0f ms %s, where below 100 ms is good; scans show them as they come; single "
+      "the tracker's poses come %.0f ms %s (below 100 ms is good; scans do not correct it); single "
       "blows differ by %.0f ms (RMS)",
       std::abs(found_.lag_s) * 1e3, found_.lag_s < 0 ? "early" : "late", found_.spread_s * 1e3);
 }

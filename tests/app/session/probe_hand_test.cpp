@@ -82,25 +82,28 @@ TEST_CASE("turns are about the middle of the face and in the probe's own frame")
   CHECK(ProbeHand::turn(start, 0, 0, 0) == start);
 }
 
-TEST_CASE("a probe is tilted until it would lie on the body, and back from there") {
+TEST_CASE("a probe is tilted and rocked until it would lie on the body, and back from there") {
   const auto ct = cylinder();
   const ProbeHand hand(ct);
-  const double most = ProbeHand::kMostTilted_deg;
-  for (const double sign : {-1.0, 1.0}) {
-    Pose pose = in_front(0);
-    CHECK_FALSE(hand.nearly_lies(pose));
-    int turns = 0;
-    for (; turns < 90; ++turns) {
-      const auto turned = hand.turn_on_skin(pose, sign, 0, 0);
-      if (!turned) break;
-      pose = *turned;
+  for (const double pressed : {0.0, ProbeHand::kDeepest_mm})
+    for (const glm::dvec2& way : {glm::dvec2(1, 0), glm::dvec2(-7, 0), glm::dvec2(0, 1), glm::dvec2(0, -40)}) {
+      CAPTURE(pressed, way.x, way.y);
+      Pose pose = in_front(pressed);
+      int turns = 0;
+      for (; turns < 200; ++turns) {
+        const auto turned = hand.turn_on_skin(pose, way.x, 0, way.y);
+        if (!turned) break;
+        pose = *turned;
+      }
+      CHECK(turns < 200);
+      // The slope of 2 mm voxels, taken over 36 mm of them.
+      CHECK(off_normal_deg(pose) == Approx(ProbeHand::kMostTilted_deg).margin(5));
+      const auto rotated = hand.turn_on_skin(pose, way.x, 40, way.y);
+      REQUIRE(rotated);
+      CHECK(glm::dot(rotated->rotation[0], pose.rotation[0]) < std::cos(glm::radians(35.0)));
+      CHECK(off_normal_deg(*rotated) < off_normal_deg(pose) + 1);
+      CHECK(hand.turn_on_skin(pose, -way.x, 0, -way.y) == ProbeHand::turn(pose, -way.x, 0, -way.y));
     }
-    // The slope of 2 mm voxels, taken over 36 mm of them.
-    CHECK(turns == Approx(most).margin(7));
-    CHECK(hand.nearly_lies(pose));
-    CHECK(hand.turn_on_skin(pose, 0, 40, 0));
-    CHECK(hand.turn_on_skin(pose, -sign, 0, 0));
-  }
 }
 
 TEST_CASE("pressing ends at what a patient bears, lifting where contact is long lost") {

@@ -128,4 +128,10 @@ TEST_CASE("a motion that finds no skin leaves the probe where it is, and is repo
   session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
   session.advance(5);
   CHECK(session.stop() == Session::Stop::none);
+
+  INFO("a turn that goes on does not hide what stops a slide");
+  session.move_probe([](const ProbeHand&, const Pose&) { return std::nullopt; });
+  session.turn_probe(0, 10, 0);
+  session.advance(5.5);
+  CHECK(session.stop() == Session::Stop::at_edge);
 }

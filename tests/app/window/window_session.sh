@@ -13,7 +13,8 @@ finish() {
   for started in "${helpers[@]}" "$trainer" "$server"; do
     [ -z "$started" ] || kill "$started" 2>/dev/null || true
   done
-  wait  # a program that still writes into the folder would fail its removal, and with that the test
+  # A program that still writes into the folder would fail its removal, and with that the test.
+  for _ in $(seq 1 50); do [ -z "$(jobs -r)" ] && break; sleep 0.1; done
   rm -rf "$work"
 }
 trap finish EXIT
