@@ -164,7 +164,8 @@ void draw_axes(const Theme& theme, const Rect& area, const glm::dvec3& belly, Pi
   }
   const glm::dvec3 size = glm::dvec3(pictures.grid().size) * pictures.grid().spacing;
   const glm::dvec3 middle = pictures.grid().centre();
-  label(theme, sketch.at({middle.x + 0.4 * size.x, belly.y - 12, middle.z + 0.5 * size.z}), "to the head");
+  // Where no move ends.
+  label(theme, sketch.at({middle.x - 0.16 * size.x, belly.y - 12, middle.z + 0.5 * size.z}), "to the head");
   label(theme, sketch.at({middle.x - 0.5 * size.x, middle.y, middle.z - 0.25 * size.z}), "patient's right");
 }
 
