@@ -115,7 +115,7 @@ public:
   /// Gives the probe back to the tracker. Its exam begins anew if the probe was taken in one or the learner's own steps
   /// run; else practice goes on. Throws what opening the tracker throws; the learner keeps the probe then.
   void give_back_probe();
-  /// Why the probe stays where it is: there is no skin to go on, as at the end of the CT, or it would lie on the body.
+  /// Why the probe stays where it is: the skin ends, as at the end of the CT, or it would lie on the body.
   enum class Stop { none, at_edge, tilted };
   /// Moves the probe by a motion from its current pose. Takes the probe first if needed. A motion that returns no pose
   /// leaves the probe where it is, and stop() is Stop::at_edge for a moment.

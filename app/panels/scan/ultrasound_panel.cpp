@@ -134,14 +134,12 @@ void draw_state(const Theme& theme, const Rect& below, std::optional<double> los
                  lost_for_s ? colour::kBackground : colour::kText, text);
 }
 
-/// Returns whether something may be placed in a frozen picture now: by the step that asks for it, or freely where there
-/// is none.
-bool asks_to_place(const Session& session) {
+/// Returns whether a frozen picture asks for something to be placed: for what the step demands, or without steps for
+/// what the learner likes.
+bool asks_to_place(const Session& session, const PictureTools& tools) {
   const Runner* runner = session.runner();
-  if (!runner || session.result() || runner->live().finished) return true;
-  const StepInput input = runner->scenario().steps[runner->live().step].task->input();
-  return std::holds_alternative<MeasureInput>(input) || std::holds_alternative<PointInput>(input) ||
-         std::holds_alternative<LabelInput>(input);
+  const bool in_step = runner && !session.result() && !runner->live().finished;
+  return !in_step || !tools.free_choice() || tools.in_hand();
 }
 
 /// @param prompts  whether it says what to do next
@@ -149,8 +147,8 @@ std::string state_text(const Session& session, const PictureTools& tools, bool p
   // While a button is down, as when the probe is dragged, the 3D view says it.
   if (session.stop() != Session::Stop::none && !ImGui::IsMouseDown(0)) return stop_words(session.stop());
   if (!session.machine().frozen) return session.looks_past_ct() ? "The CT ends here" : "";
-  const bool places = asks_to_place(session) || tools.in_hand();
-  return prompts && PictureTools::ready(session) && places ? "Frozen:  " + tool_prompt(tools) : "Frozen";
+  const bool asks = prompts && PictureTools::ready(session) && asks_to_place(session, tools);
+  return asks ? "Frozen:  " + tool_prompt(tools) : "Frozen";
 }
 
 // Shows the tracker's problem in full. The tracker's own panel has room only for its beginning.

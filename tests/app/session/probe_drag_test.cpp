@@ -171,7 +171,7 @@ TEST_CASE("each of the patient's views can be reached by turns that the handle l
   REQUIRE(loaded_case()->subject.views.size() > 10);
   for (const ReferenceView& view : loaded_case()->subject.views) {
     CAPTURE(view.name);
-    // From the probe upright there, by the same way back.
+    // A hand that is half a degree beside it gets there, whole.
     const Pose& pose = view.patient_from_probe;
     const Pose beside = ProbeHand::turn(pose, 0.5, 0, 0);
     const auto back = hand.turn_on_skin(beside, -0.5, 0, 0);
