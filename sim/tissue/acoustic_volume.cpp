@@ -124,9 +124,29 @@ private:
         if (hu - low >= kEdgeMargin_hu && high - hu >= kEdgeMargin_hu)
           echo = std::max({echo, by_density(before), by_density(after)});
       }
+      if (by_density(hu) < centidecibel(kFluid_db)) echo = std::max(echo, beside_layer(i, axis, stride));
       stride *= ct_.grid.size[axis];
     }
     return echo;
+  }
+
+  /// Returns the echogenicity beside a thin layer that holds the voxel, if there are a lighter and a denser tissue on
+  /// its sides; else the least.
+  std::int16_t beside_layer(const glm::ivec3& i, int axis, std::ptrdiff_t stride) const {
+    const std::int16_t* here = ct_.voxels.data() + ct_.grid.offset(i);
+    const int hu = *here, most = int(kLayer_mm / ct_.grid.spacing[axis]);  // voxels of a layer
+    const auto steps_to_other = [&](int direction, int room) {
+      int steps = 1;
+      while (steps <= room && std::abs(here[direction * steps * stride] - hu) < kEdgeMargin_hu) ++steps;
+      return steps <= room ? steps : 0;
+    };
+    const int below = steps_to_other(-1, std::min(most, i[axis]));
+    if (!below) return centidecibel(kMinEchogenicity_db);
+    const int above = steps_to_other(1, std::min(most + 1 - below, ct_.grid.size[axis] - 1 - i[axis]));
+    if (!above) return centidecibel(kMinEchogenicity_db);
+    const int before = here[-below * stride], after = here[above * stride];
+    return (before < hu) == (after < hu) ? centidecibel(kMinEchogenicity_db)
+                                         : std::max(by_density(before), by_density(after));
   }
 
   // Voxels beyond the grid count as air.

@@ -51,6 +51,11 @@ double to_end_mm(const Grid& grid, const glm::dvec3& point);
 inline constexpr double kEdgeRadius_mm = 2;
 inline constexpr int kEdgeMargin_hu = 20;
 
+// Thin muscle between fat and an organ has fluid's density in coarse voxels. A layer of up to this thickness along an
+// axis, with a lighter tissue on one side and a denser one on the other, is taken for that. Thicker layers stay fluid,
+// such as a gallbladder between fat and liver; so do vessels and cysts, which have an organ on both sides.
+inline constexpr double kLayer_mm = 10;
+
 // The range to which a labelled voxel is clamped: that of the tissue table.
 inline constexpr double kMinEchogenicity_db = -60, kMaxEchogenicity_db = 30;
 
@@ -81,11 +86,13 @@ inline constexpr double kSilent_db = kMinEchogenicity_db + 0.005;
 /// (n - i) / n (kEnd_db - kMinEchogenicity_db). The voxel's density stays H, but for labels of a tissue of less than
 /// kFluid_db: there it becomes H - g(H - mean) / kTextureDbPerHu, the difference rounded.
 ///
-/// Without a label there are two exceptions. First, for each axis take the two voxels at -e and e, with e being
+/// Without a label there are three exceptions. First, for each axis take the two voxels at -e and e, with e being
 /// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMargin_hu or more below
-/// H, and the higher as much above H, the result is at least T of both. Second, if a voxel and its 26 neighbours are
-/// TissueTable::densest_air_hu() or less, the result is kMinEchogenicity_db: no sound gets there, and the air around
-/// the body can be skipped.
+/// H, and the higher as much above H, the result is at least T of both. Second, where T(H) is below kFluid_db, for each
+/// axis take the nearest voxel on each side that is kEdgeMargin_hu or more from H. If one is lower and the other
+/// higher, and the voxels between them span kLayer_mm or less, the result is at least T of both. Third, if a voxel and
+/// its 26 neighbours are TissueTable::densest_air_hu() or less, the result is kMinEchogenicity_db: no sound gets there,
+/// and the air around the body can be skipped.
 ///
 /// With structure, tissue_structure_cdb() is added where scatterers are: to every voxel above kMinEchogenicity_db
 /// outside the ends, clamped as labelled voxels are.

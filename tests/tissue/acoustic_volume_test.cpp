@@ -70,6 +70,24 @@ TEST_CASE("the edge between fat and organ has no dark outline") {
       }
 }
 
+TEST_CASE("a thin layer of fluid's density between fat and an organ is no fluid, and a thick one is") {
+  // Along x; three voxels of 3 mm are 9 mm.
+  const auto amid = [](double spacing_mm, double layer_mm, int before, int after) {
+    const auto ct = along_x({int(60 / spacing_mm), 9, 9}, spacing_mm, [&](double x) {
+      return std::abs(x - 30) < layer_mm / 2 ? 5 : x < 30 ? before : after;
+    });
+    return echogenicity_db(make_acoustic_volume(ct, {}, {}, shipped()), {int(std::lround(30 / spacing_mm)), 4, 4});
+  };
+  const double organ_db = shipped().at(60).echogenicity_db, fluid_db = shipped().at(5).echogenicity_db;
+  CHECK(amid(3, 9, -100, 60) == Approx(organ_db));
+  CHECK(amid(3, 9, 60, -100) == Approx(organ_db));
+  CHECK(amid(3, 15, -100, 60) == Approx(fluid_db));
+  CHECK(amid(1, 9, -100, 60) == Approx(organ_db));
+  CHECK(amid(1, 13, -100, 60) == Approx(fluid_db));
+  CHECK(amid(3, 9, 60, 60) == Approx(fluid_db));      // a vessel
+  CHECK(amid(3, 9, -100, -100) == Approx(fluid_db));  // and one amid fat
+}
+
 TEST_CASE("air scatters where it touches the body, and nowhere else") {
   const double air_db = shipped().at(-1000).echogenicity_db;
   auto ct = along_x({40, 9, 9}, 1, [](double x) { return x < 20 ? -990.0 : 60.0; });
@@ -131,9 +149,9 @@ TEST_CASE("a label's tissue decides, and its voxels keep their texture") {
 }
 
 TEST_CASE("without labels density and echogenicity are those of the CT without noise") {
-  // 0.5 dB per HU from -50 dB at 0 HU.
-  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -50}, {100, 1.6, 0, 0}}, {}};
-  const auto even_table = [&](int hu) { return std::clamp(hu, 0, 100) * 50 - 5000; };
+  // 0.2 dB per HU from -20 dB at 0 HU: nothing is fluid.
+  const TissueTable table{{{-1000, 0.0004, 1, -60}, {0, 1.5, 0, -20}, {100, 1.6, 0, 0}}, {}};
+  const auto even_table = [&](int hu) { return std::clamp(hu, 0, 100) * 20 - 2000; };
   auto ct = along_x({40, 40, 40}, 1, edge(20, 60, 4));
   for (std::size_t v = 0; v < ct.voxels.size(); ++v)
     ct.voxels[v] = std::int16_t(ct.voxels[v] + (unit_float(hash(std::uint32_t(v), 5)) - 0.5) * 60);

@@ -29,9 +29,15 @@ Json json(const glm::dvec3& v) {
 }
 
 Json echogenicity_constants() {
-  return {{"texture_db_per_hu", kTextureDbPerHu}, {"texture_hu", kTexture_hu},        {"rim_hu", kRim_hu},
-          {"edge_reach_mm", kEdgeRadius_mm},      {"edge_margin_hu", kEdgeMargin_hu}, {"most_air_hu", kMaxAir_hu},
-          {"least_db", kMinEchogenicity_db},      {"most_db", kMaxEchogenicity_db}};
+  return {{"texture_db_per_hu", kTextureDbPerHu},
+          {"texture_hu", kTexture_hu},
+          {"rim_hu", kRim_hu},
+          {"edge_reach_mm", kEdgeRadius_mm},
+          {"edge_margin_hu", kEdgeMargin_hu},
+          {"layer_mm", kLayer_mm},
+          {"most_air_hu", kMaxAir_hu},
+          {"least_db", kMinEchogenicity_db},
+          {"most_db", kMaxEchogenicity_db}};
 }
 
 Json ct_noise_constants() {

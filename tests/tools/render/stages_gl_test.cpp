@@ -156,6 +156,7 @@ void check_description(const nlohmann::json& text, const Insonated& scene) {
       {"/echogenicity/rim_hu", kRim_hu},
       {"/echogenicity/edge_reach_mm", kEdgeRadius_mm},
       {"/echogenicity/edge_margin_hu", kEdgeMargin_hu},
+      {"/echogenicity/layer_mm", kLayer_mm},
       {"/ct_noise/step_mm", kNoiseStep_mm},
       {"/ct_noise/usual_hu", kUsualNoise_hu},
       {"/ct_noise/least_tissue_ml", kMinTissue_ml},
