@@ -60,6 +60,7 @@ struct StepResult {
   std::vector<std::pair<Metric, double>> values;           ///< other values measured by this kind of step
   std::vector<std::pair<std::string, std::string>> facts;  ///< other information for the reader: "answer", "a stone"
   static constexpr const char* kMeasured = "measured";     ///< the fact that is the learner's own value: "188 ml"
+  static constexpr const char* kLengths = "lengths";       ///< the fact of what it comes from: "34.3 mm, 33.6 mm"
   static constexpr const char* kNotHeld =
       "missed at the end";  ///< the fact that names limits which kept the view from being held
   MotionValues motion;

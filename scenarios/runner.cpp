@@ -257,7 +257,7 @@ void Runner::end_step(StepOutcome outcome, double now, Then then) {
     live_.points -= ended.lost_to_hints();
   }
   for (const auto& [what, fact] : ended.facts)
-    if (what == StepResult::kMeasured) live_.measured.push_back(ended.title + ": " + fact);
+    if (what == StepResult::kMeasured) live_.measured.push_back(fact + " in '" + ended.title + "'");
   const auto next = then == Then::go_on ? step_after(ended, now) : std::nullopt;
   if (next)
     begin_step(*next, now);

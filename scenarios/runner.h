@@ -39,7 +39,7 @@ struct LiveExam {
   bool counts_as_done = false;     ///< ending the step now would count as done
   std::vector<std::string> hints;  ///< hints taken in this step
   std::size_t hints_left = 0;
-  std::vector<std::string> measured;  ///< what steps that ended have measured: "Three lengths: 188 ml"
+  std::vector<std::string> measured;  ///< what steps that ended have measured: "188 ml in 'Three lengths'"
   double points = 0;                  ///< of the steps done
   double points_possible = 0;         ///< of the steps done
 };

@@ -44,6 +44,11 @@ std::string title_of(Metric metric) {
   return std::string(m.words) + (m.of_reference ? " (100 %: the reference view)" : "");
 }
 
+std::string title_of_fact(const std::string& name, const std::string& fact) {
+  const bool of_volume = name == StepResult::kLengths && std::count(fact.begin(), fact.end(), ',') == 2;
+  return of_volume ? "length, depth, width" : in_words(name);
+}
+
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

@@ -25,6 +25,10 @@ std::string unbroken(std::string_view sentence);
 /// Returns a metric's name for people who read its value. It says what 100 % is where a value can exceed it.
 std::string title_of(Metric metric);
 
+/// Returns what a fact of a step is, as a person reads it: "length, depth, width" for the three lengths of a volume.
+/// @param name  of StepResult::facts
+std::string title_of_fact(const std::string& name, const std::string& fact);
+
 /// Returns a structure's name as a person reads it: "right kidney".
 std::string in_words(std::string name);
 

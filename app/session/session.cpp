@@ -206,7 +206,7 @@ bool Session::looks_past_ct() const {
     const glm::dvec3 point = shown_pose_->point({0, machine_.depth_mm * (i + 0.5) / kPoints, 0});
     past += to_end_mm(loaded_case_->subject.ct.grid, point) < kEnd_mm / 2;
   }
-  return past > kPoints / 2;
+  return past > kPoints / 4;
 }
 
 void Session::move_probe(const std::function<std::optional<Pose>(const ProbeHand&, const Pose&)>& motion) {

@@ -132,7 +132,7 @@ std::string facts_of(const StepResult& step) {
   if (step.facts.empty()) return "";
   std::string rows;
   for (const auto& [what, fact] : step.facts)
-    rows += "<tr><td>" + escaped(what) + "</td><td>" + escaped(unbroken(fact)) + "</td></tr>\n";
+    rows += "<tr><td>" + escaped(title_of_fact(what, fact)) + "</td><td>" + escaped(unbroken(fact)) + "</td></tr>\n";
   return "<table class='facts'>" + rows + "</table>";
 }
 
@@ -272,7 +272,8 @@ std::string report_html(const ExamResult& result, std::span<const TracePoint> tr
   if (!trace.empty()) {
     html += "<section><h2>Over time</h2>" + time_charts_svg(result, trace) +
             "<p class='legend'><i class='key held'></i>view held or step done <i class='key judged'></i>judged, not "
-            "held or done <i class='key lost'></i>no tracking <i class='key full'></i>full points</p></section>\n";
+            "held or done <i class='key lost'></i>no tracking <i class='key full'></i>full points. The curves compare "
+            "with the plane that each step is judged in, also while a step measures in another.</p></section>\n";
     html += "<section><h2>Path of the probe</h2>" + path_html(result, trace) + "<p class='legend'>";
     for (std::size_t i = 0; i < result.steps.size(); ++i)
       html += "<i class='key path" + std::to_string(i % 4) + "'></i>" + escaped(result.steps[i].title) + " ";

@@ -101,7 +101,7 @@ public:
       result.judged = meter_->measure(last->patient_from_probe, last->depth_mm);
       result.judged_from_s = result.judged_to_s = last->time_s;
     }
-    if (last && asked_.slots() > 1) result.facts.emplace_back("lengths", lengths());
+    if (last && asked_.slots() > 1) result.facts.emplace_back(StepResult::kLengths, lengths());
     if (!counts_as_done()) return;
     std::vector<Action> placed;
     for (int i = 0; i < asked_.slots(); ++i) placed.push_back(placed_[std::size_t(i)]->action);

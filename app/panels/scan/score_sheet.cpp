@@ -105,7 +105,7 @@ void draw_marks(const Theme& theme, Rect& rows, float row, const std::vector<Cri
 using Fact = std::pair<std::string, std::string>;
 
 float name_width(const Theme& theme, const Fact& fact) {
-  return text_width(theme.small_text, in_words(fact.first) + ": ") + 1;
+  return text_width(theme.small_text, title_of_fact(fact.first, fact.second) + ": ") + 1;
 }
 
 float height_of(const Theme& theme, const Fact& fact, float row, float width) {
@@ -115,7 +115,7 @@ float height_of(const Theme& theme, const Fact& fact, float row, float width) {
 /// What the step has found out besides values, such as what was measured.
 void draw_fact(const Theme& theme, Rect rows, float row, float width, const Fact& fact) {
   Rect name = rows.take_left(name_width(theme, fact));
-  draw_text(name.take_top(row), theme.small_text, colour::kMuted, in_words(fact.first) + ": ");
+  draw_text(name.take_top(row), theme.small_text, colour::kMuted, title_of_fact(fact.first, fact.second) + ": ");
   draw_lines(theme, rows, row, width - name_width(theme, fact), colour::kText, fact.second);
 }
 

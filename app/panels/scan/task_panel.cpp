@@ -103,7 +103,7 @@ void draw_turns(const Theme& theme, Rect where, Session& session, StepControls& 
 std::string measured_before(const Session& session) {
   std::string words;
   for (const std::string& measured : session.runner()->live().measured)
-    words += (words.empty() ? "  You measured: " : "; ") + measured;
+    words += (words.empty() ? "  You measured " : "; ") + measured;
   return words;
 }
 

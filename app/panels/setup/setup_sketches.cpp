@@ -145,7 +145,7 @@ void draw_axes(const Theme& theme, const Rect& area, const glm::dvec3& belly, Pi
   const glm::dvec3 up(0, -1, 0);
   const AskedMove& move = asked_moves()[std::min<std::size_t>(part / 2, 3)];
   view::OrbitCamera camera = view::OrbitCamera::framing(pictures.grid());
-  camera.yaw_deg = -18;
+  camera.yaw_deg = -12;
   camera.pitch_deg = -42;
   camera.centre = belly + 55.0 * up;  // between the body and the probe that is lifted
   camera.zoom(1.05);

@@ -65,8 +65,8 @@ std::string LandmarkStep::result() const {
   for (const LandmarkPair& pair : pairs_)
     if (pair.held_out) checked += (checked.empty() ? "" : ", ") + pair.name;
   return formatted(
-      "accuracy %.1f mm, where below 3 mm is good: the RMS error where only the fit is checked (%s); the fitted "
-      "ones are %.1f mm off (RMS), %s most (%.1f mm)",
+      "accuracy %.1f mm (below 3 mm is good), measured at what was left out of the fit: %s. The fitted places "
+      "are %.1f mm off (RMS); %s is off most, by %.1f mm",
       found_.accuracy_mm, checked.c_str(), found_.residual_mm, found_.worst.c_str(), found_.worst_mm);
 }
 

@@ -126,8 +126,10 @@ TEST_CASE("the session says when the picture's beam lies where the CT ends") {
                   [loaded_case] { return std::make_unique<MouseTracker>(loaded_case->surroundings.start); });
   session.practise();
   double now_s = 0;
-  const auto at = [&](double z_mm) {
-    session.move_probe([&](const ProbeHand&, const Pose&) { return Pose{glm::dmat3(1.0), {0, 0, z_mm}}; });
+  const auto at = [&](double z_mm, double tilt_deg = 0) {
+    const double c = std::cos(glm::radians(tilt_deg)), s = std::sin(glm::radians(tilt_deg));
+    const glm::dmat3 rotation(1, 0, 0, 0, c, s, 0, -s, c);  // the beam towards the head
+    session.move_probe([&](const ProbeHand&, const Pose&) { return Pose{rotation, {0, 0, z_mm}}; });
     for (int i = 0; i < 3; ++i) session.advance(now_s += 0.1);
     return session.looks_past_ct();
   };
@@ -136,6 +138,8 @@ TEST_CASE("the session says when the picture's beam lies where the CT ends") {
   CHECK(at(78));
   CHECK(at(-78));
   CHECK(at(120));
+  CHECK_FALSE(at(0, 25));  // 140 mm end 59 mm towards the head
+  CHECK(at(0, 60));        // more than a third of the beam lies beyond
 }
 
 TEST_CASE("free practice has no exam, and an exam can be started from it") {

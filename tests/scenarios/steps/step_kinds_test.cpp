@@ -149,7 +149,7 @@ TEST_CASE("a later step knows what was measured before, and not what is true") {
   runner.feed(samples_of(3, 10, [](double) { return at_z(0); }),
               {{1.0, {kFreeze}}, {1.5, {{ActionKind::ellipse, {1, -20, 60, 20, 60, 20}}}}, {2.0, {kGoOn}}});
   REQUIRE(runner.live().step == 1);
-  CHECK(runner.live().measured == std::vector<std::string>{"A step: 12.57 cm\u00b2"});
+  CHECK(runner.live().measured == std::vector<std::string>{"12.57 cm\u00b2 in 'A step'"});
 }
 
 TEST_CASE("areas, ratios and volumes are measured against the label map") {
