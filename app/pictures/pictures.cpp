@@ -17,9 +17,9 @@ constexpr int kMinWidth = 240;
 /// A picture with a smaller share of the screen's pixels has half of the samples. With three quarters of the pixels
 /// that takes its error from 4.0 to 4.6 dB and saves a fifth of its time (docs/benchmarks, front.csv: 480 x 360).
 constexpr double kFewPixels = 0.8;
-/// With a smaller share, the fewest that QualityGovernor asks for, the probe has three quarters of its lines too. That
-/// takes the error from 4.6 to 5.2 dB and saves an eighth of the time (insonate-bench front with
-/// --configuration 144,267,480,360, on two cores).
+/// With a smaller share, the fewest that QualityGovernor asks for, the probe has two thirds of its lines too. That
+/// takes the error from 4.6 to 5.4 dB and saves a sixth of the time (insonate-bench front with
+/// --configuration 128,267,480,360, on two cores).
 constexpr double kFewestPixels = 0.65;
 
 /// A plane seen more edge-on than this (cosine of the angle to its normal) hides little of the patient, and cutting
@@ -124,7 +124,7 @@ void Pictures::update(const std::optional<Pose>& pose, const Machine& machine, c
   Probe probe = machine.transducer();
   if (level_ == Quality::balanced) {
     if (quality < kFewPixels) settings.samples = few_samples;
-    if (quality < kFewestPixels) probe.lines = 3 * probe.lines / 4;
+    if (quality < kFewestPixels) probe.lines = 2 * probe.lines / 3;
   }
   simulator_.set_probe(probe, machine.depth_mm);
   probe_name_ = machine.probe;

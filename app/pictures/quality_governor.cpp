@@ -18,8 +18,13 @@ constexpr double kMuchTooSlow = 1.4;
 constexpr double kQuick = 0.72;
 /// The share that a decision aims at. Single frames take longer than the median, so the rate needs some time to spare.
 constexpr double kAim = 0.85;
-/// One view per two frames, before the ultrasound gets fewer pixels; one per three frames, once it has the fewest.
-constexpr int kFewTurns = 2, kFewestTurns = 3;
+/// One view per two frames, before the ultrasound gets fewer pixels; fewer, once it has the fewest.
+constexpr int kFewTurns = 2, kFewestTurns = 5;
+/// With the fewest pixels the mean decides, because frames that draw the patient take longer than the median. Above the
+/// first share there are fewer turns, below the second more: one more turn adds at most 7 %.
+constexpr double kSlowInTheMean = 0.97, kQuickInTheMean = 0.89;
+/// The mean is taken over this time, in which each view has its turn.
+constexpr double kMeanOver_s = 0.5;
 /// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
 constexpr double kQuickForAllViews = 0.45;
 /// Most by which one decision changes the quality.
@@ -47,6 +52,13 @@ void QualityGovernor::see(double now_s, double frame_s, bool computed) {
 }
 
 void QualityGovernor::see_motion(double frame_s) {
+  if (of_motion_ <= kMin && turns_of_motion_ >= kFewTurns) {
+    at_floor_s_ += frame_s;
+    ++at_floor_;
+    if (at_floor_s_ >= kMeanOver_s) decide_turns();
+  } else {
+    at_floor_s_ = at_floor_ = 0;
+  }
   frames_s_.push_back(frame_s);
   if (frames_s_.size() < 3 || std::accumulate(frames_s_.begin(), frames_s_.end(), 0.0) < kPeriod_s) return;
   // The median, because a frame that waited for a shader compiler, a file or another program does not predict the next.
@@ -56,17 +68,24 @@ void QualityGovernor::see_motion(double frame_s) {
   frames_s_.clear();
 }
 
+void QualityGovernor::decide_turns() {
+  const double share = at_floor_s_ / at_floor_ / kFrame_s;
+  if (share > kSlowInTheMean)
+    turns_of_motion_ = std::min(turns_of_motion_ + 1, kFewestTurns);
+  else if (share < kQuickInTheMean)
+    turns_of_motion_ = std::max(turns_of_motion_ - 1, kFewTurns);
+  at_floor_s_ = at_floor_ = 0;
+}
+
 void QualityGovernor::decide(double frame_s) {
   const double share = frame_s / kFrame_s;
   if (share > kSlow) {
     if (turns_of_motion_ < kFewTurns)
       turns_of_motion_ = share > kMuchTooSlow ? kFewTurns : turns_of_motion_ + 1;
-    else if (of_motion_ > kMin)
-      of_motion_ = std::max(kMin, of_motion_ * std::max(kMinStep, std::sqrt(kAim / share)));
     else
-      turns_of_motion_ = kFewestTurns;
-  } else if (share < kQuick && turns_of_motion_ == kFewestTurns) {
-    turns_of_motion_ = kFewTurns;
+      of_motion_ = std::max(kMin, of_motion_ * std::max(kMinStep, std::sqrt(kAim / share)));
+  } else if (turns_of_motion_ > kFewTurns) {
+    return;  // decide_turns() gives the other views their turns again before there are more pixels
   } else if (share < kQuick && of_motion_ < 1) {
     of_motion_ = std::min(1.0, of_motion_ * std::min(kMaxStep, std::sqrt(kAim / share)));
   } else if (share < (turns_of_motion_ == kFewTurns ? kQuick : kQuickForAllViews)) {

@@ -28,7 +28,7 @@ public:
   /// Returns the share of the screen's pixels along each side for the next frame, kMin to 1.
   double quality() const { return moves_ ? of_motion_ : 1; }
   /// Returns per how many frames one of the views beside the ultrasound is drawn: 0 (all are drawn in each frame), or 1
-  /// to 3.
+  /// to 5.
   int frames_per_turn() const { return moves_ ? turns_of_motion_ : 0; }
 
   /// To be called once per frame.
@@ -40,12 +40,15 @@ public:
 private:
   void see_motion(double frame_s);
   void decide(double frame_s);
+  void decide_turns();
 
   bool moves_ = false, computed_before_ = false;
   double computed_s_ = 0;  // of the last frame that computed anything
   double of_motion_ = 1;   // quality while the picture moves
   int turns_of_motion_ = 0;
   std::vector<double> frames_s_;  // since the last decision
+  double at_floor_s_ = 0;         // of frames with the fewest pixels since the last decision on turns
+  int at_floor_ = 0;
 };
 
 }  // namespace insonate
