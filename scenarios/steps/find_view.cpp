@@ -1,8 +1,10 @@
 #include "scenarios/steps/find_view.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <deque>
+#include <string_view>
 
 #include "scenarios/metrics/motion_meter.h"
 #include "scenarios/metrics/view_meter.h"
@@ -56,6 +58,18 @@ std::string lack(const Tolerance& limit, const ViewValues& view) {
   return std::string(info(limit.metric).words) + ": " + in_words(limit.metric, view.of(limit.metric)) +
          ", asked for: " + in_words(limit.metric, limit.limit) +
          (info(limit.metric).less_is_better ? " or less" : " or more");
+}
+
+/// Returns a limit as its author wrote it: "8 mm", "20\u00b0".
+std::string limit_text(const Tolerance& limit) {
+  const std::string unit(info(limit.metric).unit);
+  return short_number(limit.limit) + (unit == "\u00b0" || unit.empty() ? "" : " ") + unit;
+}
+
+std::string lower_case(std::string_view words) {
+  std::string text(words);
+  text.front() = char(std::tolower(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
 class FindViewRun : public StepRun {
@@ -150,6 +164,21 @@ private:
 };
 
 }  // namespace
+
+StepWords FindView::words() const {
+  std::string near, others;
+  for (const Tolerance& t : tolerance) {
+    const bool of_plane = t.metric == Metric::plane_distance_mm || t.metric == Metric::plane_angle_deg;
+    if (of_plane)
+      near += (near.empty() ? " within " : " and ") + limit_text(t);
+    else
+      others += ", " + lower_case(info(t.metric).words) + (info(t.metric).less_is_better ? " at most " : " at least ") +
+                limit_text(t);
+  }
+  if (!near.empty()) near += " of the asked plane";
+  return {"The view is taken as it is, also in motion, after " + short_number(hold_s) + " s" + near + others + ".",
+          "Searching", "Hold still", false};
+}
 
 std::shared_ptr<const StepTask> FindView::read(const TomlTable& table, const Step& step) {
   auto task = std::make_shared<FindView>();

@@ -14,9 +14,7 @@ struct FindView : StepTask {
 
   static std::shared_ptr<const StepTask> read(const TomlTable& table, const Step& step);
 
-  StepWords words() const override {
-    return {"Held long enough near the asked plane, the view is taken as it is.", "Searching", "Hold still", false};
-  }
+  StepWords words() const override;
   bool holds_view() const override { return true; }
   std::vector<Metric> metrics() const override { return {Metric::longest_hold_s}; }
   bool judges_picture() const override { return true; }

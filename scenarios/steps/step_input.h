@@ -62,7 +62,7 @@ using StepInput = std::variant<std::monostate, AnswerInput, MeasureInput, PointI
 
 /// What the screen says of a step, by its kind.
 struct StepWords {
-  const char* prompt = "";               ///< what to do, where the input does not show it; a sentence
+  std::string prompt{};                  ///< what to do, where the input does not show it; a sentence
   const char* under_way = "To be done";  ///< until it is done
   const char* on_target = "As asked";    ///< while the picture or the machine is as asked for
   bool shows_progress = true;            ///< the screen shows the share that is done, and that it is enough

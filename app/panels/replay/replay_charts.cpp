@@ -90,7 +90,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
              [](double t) { return std::optional(t); });
 
   label.take_right(theme.px(6));
-  const Rect axis = label.take_right(theme.px(26));
+  const Rect axis = label.take_right(theme.px(34));
   draw_text({axis.x, chart.y - theme.px(2), axis.w, theme.px(15)}, theme.small_text, colour::kFaint,
             fixed(quantity.most, 0) + (quantity.has_more() ? "+" : ""), Align::right);
   draw_text({axis.x, chart.y + chart.h - theme.px(13), axis.w, theme.px(15)}, theme.small_text, colour::kFaint, "0",

@@ -3,6 +3,7 @@
 #include "scenarios/report/report.h"
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
+#include "scenarios/steps/find_view.h"
 #include "tests/scenarios/tiny_exam.h"
 
 using namespace insonate;
@@ -25,6 +26,21 @@ TEST_CASE("knobs are set when all of them are as asked for long enough") {
              {{1.0, {{ActionKind::probe, {}, "linear"}, {ActionKind::gain, {4}}, {ActionKind::depth, {55}}}},
               {1.3, {{ActionKind::gain, {9}}}}});
   CHECK(shortly.steps[0].outcome == StepOutcome::scan_ended);
+}
+
+TEST_CASE("a step that asks for a view says within what limits it takes one") {
+  FindView asked;
+  asked.tolerance = {
+      {Metric::plane_distance_mm, 8, {}}, {Metric::plane_angle_deg, 20, {}}, {Metric::target_in_view_percent, 70, {}}};
+  CHECK(asked.words().prompt ==
+        "The view is taken as it is, also in motion, after 1 s within 8 mm and 20\u00b0 of the asked plane, target in "
+        "the picture at "
+        "least 70 %.");
+  asked.hold_s = 1.5;
+  asked.tolerance = {{Metric::in_plane_offset_mm, 12.5, {}}};
+  CHECK(asked.words().prompt ==
+        "The view is taken as it is, also in motion, after 1.5 s, shift of the target within the picture at most 12.5 "
+        "mm.");
 }
 
 TEST_CASE("a distance is measured between calipers in a frozen picture, against the label map") {
