@@ -35,8 +35,8 @@ struct PictureSizes {
 /// What drawing may leave out to be in time; by default nothing.
 struct Effort {
   /// 0 to 1: the share of the screen's pixels, along each side, that the ultrasound is computed for. A picture that
-  /// exists already is not drawn again with fewer pixels. Below 0.8 it has half of the samples too, if its quality is
-  /// balanced.
+  /// exists already is not drawn again with fewer pixels. Below 0.8 it has half of the samples too, and below 0.65
+  /// two thirds of the lines, if its quality is balanced.
   double quality = 1;
   /// Time for the volume view, which gets coarser while things move to stay within it.
   double volume_ms = std::numeric_limits<double>::infinity();

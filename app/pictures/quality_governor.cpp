@@ -21,9 +21,10 @@ constexpr double kAim = 0.85;
 /// One view per two frames, before the ultrasound gets fewer pixels; fewer, once it has the fewest.
 constexpr int kFewTurns = 2, kFewestTurns = 5;
 /// With the fewest pixels the mean decides, because frames that draw the patient take longer than the median. Above the
-/// first share there are fewer turns, below the second more: one more turn adds at most 7 %.
-constexpr double kSlowInTheMean = 0.97, kQuickInTheMean = 0.89;
-/// The mean is taken over this time, in which each view has its turn.
+/// first share there are fewer turns, below the second more: one more adds at most a sixth of the time of a view, which
+/// fits between them up to 24 ms. A screen that waits for its refresh is not slow at a share of 1 (kSlow).
+constexpr double kSlowInTheMean = 0.97, kQuickInTheMean = 0.85;
+/// The mean is taken over this time, some fifteen frames.
 constexpr double kMeanOver_s = 0.5;
 /// Below this share there is time for all views in each frame: they take at most as long as the ultrasound.
 constexpr double kQuickForAllViews = 0.45;
@@ -35,13 +36,15 @@ constexpr double kOfSoftwareRenderer = 0.7;
 }  // namespace
 
 QualityGovernor::QualityGovernor(bool for_software_renderer)
-    : of_motion_(for_software_renderer ? kOfSoftwareRenderer : 1),
+    : waits_for_screen_(!for_software_renderer),
+      of_motion_(for_software_renderer ? kOfSoftwareRenderer : 1),
       turns_of_motion_(for_software_renderer ? kFewTurns : 0) {}
 
 void QualityGovernor::see(double now_s, double frame_s, bool computed) {
   const bool follows = std::exchange(computed_before_, computed) || now_s - computed_s_ < kRest_s;
   if (!computed) {
     moves_ = moves_ && follows;
+    if (!moves_) at_floor_s_ = at_floor_ = 0;
     return;
   }
   if (moves_) see_motion(frame_s);
@@ -55,7 +58,7 @@ void QualityGovernor::see_motion(double frame_s) {
   if (of_motion_ <= kMin && turns_of_motion_ >= kFewTurns) {
     at_floor_s_ += frame_s;
     ++at_floor_;
-    if (at_floor_s_ >= kMeanOver_s) decide_turns();
+    if (at_floor_ >= 3 && at_floor_s_ >= kMeanOver_s) decide_turns();
   } else {
     at_floor_s_ = at_floor_ = 0;
   }
@@ -70,10 +73,12 @@ void QualityGovernor::see_motion(double frame_s) {
 
 void QualityGovernor::decide_turns() {
   const double share = at_floor_s_ / at_floor_ / kFrame_s;
-  if (share > kSlowInTheMean)
+  const int before = turns_of_motion_;
+  if (share > (waits_for_screen_ ? kSlow : kSlowInTheMean))
     turns_of_motion_ = std::min(turns_of_motion_ + 1, kFewestTurns);
   else if (share < kQuickInTheMean)
     turns_of_motion_ = std::max(turns_of_motion_ - 1, kFewTurns);
+  if (turns_of_motion_ != before) frames_s_.clear();
   at_floor_s_ = at_floor_ = 0;
 }
 

@@ -125,8 +125,8 @@ public:
   void turn_probe(double tilt_deg, double rotation_deg, double rock_deg);
   /// Returns what has just stopped the probe.
   Stop stop() const { return now_s_ < stop_shown_until_s_ ? stop_ : Stop::none; }
-  /// Returns whether most of the picture's central beam lies where the CT ends towards head or feet, so that the
-  /// picture is dark.
+  /// Returns whether more than a quarter of the picture's central beam lies where the CT ends towards head or feet, so
+  /// that the picture is dark there.
   bool looks_past_ct() const;
 
   /// Returns the pose of the picture. With a live tracker this is the pose at the time of the picture. With other

@@ -60,7 +60,7 @@ std::string lack(const Tolerance& limit, const ViewValues& view) {
          (info(limit.metric).less_is_better ? " or less" : " or more");
 }
 
-/// Returns a limit as its author wrote it: "8 mm", "20\u00b0".
+/// Returns a limit in short: "8 mm", "20\u00b0".
 std::string limit_text(const Tolerance& limit) {
   const std::string unit(info(limit.metric).unit);
   return short_number(limit.limit) + (unit == "\u00b0" || unit.empty() ? "" : " ") + unit;

@@ -124,7 +124,8 @@ private:
         if (hu - low >= kEdgeMargin_hu && high - hu >= kEdgeMargin_hu)
           echo = std::max({echo, by_density(before), by_density(after)});
       }
-      if (by_density(hu) < centidecibel(kFluid_db)) echo = std::max(echo, beside_layer(i, axis, stride));
+      if (labels_.empty() && by_density(hu) < centidecibel(kFluid_db))
+        echo = std::max(echo, beside_layer(i, axis, stride));
       stride *= ct_.grid.size[axis];
     }
     return echo;
@@ -145,8 +146,9 @@ private:
     const int above = steps_to_other(1, std::min(most + 1 - below, ct_.grid.size[axis] - 1 - i[axis]));
     if (!above) return centidecibel(kMinEchogenicity_db);
     const int before = here[-below * stride], after = here[above * stride];
-    return (before < hu) == (after < hu) ? centidecibel(kMinEchogenicity_db)
-                                         : std::max(by_density(before), by_density(after));
+    const auto [light, dense] = std::minmax(before, after);
+    return light > kMaxAir_hu && light < hu && dense > hu ? std::max(by_density(before), by_density(after))
+                                                          : centidecibel(kMinEchogenicity_db);
   }
 
   // Voxels beyond the grid count as air.

@@ -53,7 +53,7 @@ inline constexpr int kEdgeMargin_hu = 20;
 
 // Thin muscle between fat and an organ has fluid's density in coarse voxels. A layer of up to this thickness along an
 // axis, with a lighter tissue on one side and a denser one on the other, is taken for that. Thicker layers stay fluid,
-// such as a gallbladder between fat and liver; so do vessels and cysts, which have an organ on both sides.
+// as all but the rim of a gallbladder between fat and liver; so do vessels and cysts amid an organ.
 inline constexpr double kLayer_mm = 10;
 
 // The range to which a labelled voxel is clamped: that of the tissue table.
@@ -88,11 +88,11 @@ inline constexpr double kSilent_db = kMinEchogenicity_db + 0.005;
 ///
 /// Without a label there are three exceptions. First, for each axis take the two voxels at -e and e, with e being
 /// kEdgeRadius_mm in voxels, rounded, at least 1. If both lie in the grid, the lower lies kEdgeMargin_hu or more below
-/// H, and the higher as much above H, the result is at least T of both. Second, where T(H) is below kFluid_db, for each
-/// axis take the nearest voxel on each side that is kEdgeMargin_hu or more from H. If one is lower and the other
-/// higher, and the voxels between them span kLayer_mm or less, the result is at least T of both. Third, if a voxel and
-/// its 26 neighbours are TissueTable::densest_air_hu() or less, the result is kMinEchogenicity_db: no sound gets there,
-/// and the air around the body can be skipped.
+/// H, and the higher as much above H, the result is at least T of both. Second, in a CT without any labels, where T(H)
+/// is below kFluid_db, for each axis take the nearest voxel on each side that is kEdgeMargin_hu or more from H. If one
+/// is lower, but above kMaxAir_hu, and the other higher, and the voxels between them span kLayer_mm or less, the result
+/// is at least T of both. Third, if a voxel and its 26 neighbours are TissueTable::densest_air_hu() or less, the result
+/// is kMinEchogenicity_db: no sound gets there, and the air around the body can be skipped.
 ///
 /// With structure, tissue_structure_cdb() is added where scatterers are: to every voxel above kMinEchogenicity_db
 /// outside the ends, clamped as labelled voxels are.

@@ -84,6 +84,7 @@ TEST_CASE("a thin layer of fluid's density between fat and an organ is no fluid,
   CHECK(amid(3, 15, -100, 60) == Approx(fluid_db));
   CHECK(amid(1, 9, -100, 60) == Approx(organ_db));
   CHECK(amid(1, 13, -100, 60) == Approx(fluid_db));
+  CHECK(amid(3, 9, -900, 60) == Approx(fluid_db));    // below gas
   CHECK(amid(3, 9, 60, 60) == Approx(fluid_db));      // a vessel
   CHECK(amid(3, 9, -100, -100) == Approx(fluid_db));  // and one amid fat
 }

@@ -19,8 +19,8 @@ struct Quantity {
   std::optional<Metric> metric;  ///< of the step's view; empty: the speed
   double most;                   ///< end of the axis
 
-  /// Returns whether values beyond the axis are clipped to its end.
-  bool has_more() const { return metric != Metric::target_insonated_percent; }
+  /// Returns whether values may lie beyond the axis, and are clipped to its end.
+  bool clips() const { return metric != Metric::target_insonated_percent; }
   std::optional<double> of(const RunMoment& moment) const {
     if (moment.last_usable_s != moment.time_s) return std::nullopt;
     if (!metric) return moment.speed_mm_s;
@@ -92,7 +92,7 @@ void draw_chart(const Theme& theme, Rect label, const Rect& chart, const TimeSca
   label.take_right(theme.px(6));
   const Rect axis = label.take_right(theme.px(34));
   draw_text({axis.x, chart.y - theme.px(2), axis.w, theme.px(15)}, theme.small_text, colour::kFaint,
-            fixed(quantity.most, 0) + (quantity.has_more() ? "+" : ""), Align::right);
+            fixed(quantity.most, 0) + (quantity.clips() ? "+" : ""), Align::right);
   draw_text({axis.x, chart.y + chart.h - theme.px(13), axis.w, theme.px(15)}, theme.small_text, colour::kFaint, "0",
             Align::right);
   Rect line{label.x, label.y + (label.h - theme.px(36)) / 2, label.w, theme.px(18)};

@@ -71,9 +71,9 @@ void draw_landmarks(const Theme& theme, const Rect& space, const std::vector<Lan
   }
   if (!pointed) return;
   const float right = pointed->at.x + gap;
+  const float y = std::clamp(pointed->at.y - height / 2, space.y, space.y + space.h - height);
   const bool fits = right + pointed->width <= space.x + space.w;
-  draw_name({fits ? right : pointed->at.x - gap - pointed->width, pointed->at.y - height / 2, pointed->width, height},
-            pointed->name);
+  draw_name({fits ? right : pointed->at.x - gap - pointed->width, y, pointed->width, height}, pointed->name);
 }
 
 }  // namespace insonate::ui

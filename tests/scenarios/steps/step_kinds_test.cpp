@@ -4,6 +4,7 @@
 #include "scenarios/result_json.h"
 #include "scenarios/runner.h"
 #include "scenarios/steps/find_view.h"
+#include "scenarios/words.h"
 #include "tests/scenarios/tiny_exam.h"
 
 using namespace insonate;
@@ -26,6 +27,12 @@ TEST_CASE("knobs are set when all of them are as asked for long enough") {
              {{1.0, {{ActionKind::probe, {}, "linear"}, {ActionKind::gain, {4}}, {ActionKind::depth, {55}}}},
               {1.3, {{ActionKind::gain, {9}}}}});
   CHECK(shortly.steps[0].outcome == StepOutcome::scan_ended);
+}
+
+TEST_CASE("the three lengths of a volume have names, other facts their own") {
+  CHECK(title_of_fact(StepResult::kLengths, "34.3 mm, 33.6 mm, 43.7 mm") == "length, depth, width");
+  CHECK(title_of_fact(StepResult::kLengths, "34.3 mm, 33.6 mm") == "lengths");
+  CHECK(title_of_fact(StepResult::kMeasured, "1, 2, 3") == "measured");
 }
 
 TEST_CASE("a step that asks for a view says within what limits it takes one") {
