@@ -6,10 +6,10 @@ namespace insonate {
 
 /// Decides what the window leaves out while the picture moves, on a machine that cannot draw everything 30 times a
 /// second. First the views beside the ultrasound take turns, one per frame and then one per two frames. Then the
-/// ultrasound gets fewer pixels, samples along its lines, and lines. At last the other views have fewer
-/// turns, down to one per five frames. Once the picture stands still everything is drawn in full, so that close
-/// inspection and measurements do not depend on the speed of the machine. A moving picture that is recorded keeps the
-/// pixels that it was drawn with.
+/// ultrasound gets fewer pixels, samples along its lines, and lines. At last the other views have fewer turns, down
+/// to one per five frames. Once the picture stands still everything is drawn in full, so that close inspection and
+/// measurements do not depend on the speed of the machine. A moving picture that is recorded keeps the pixels that it
+/// was drawn with.
 class QualityGovernor {
 public:
   static constexpr double kMin = 0.6;

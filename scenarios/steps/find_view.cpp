@@ -176,8 +176,10 @@ StepWords FindView::words() const {
                 limit_text(t);
   }
   if (!near.empty()) near += " of the asked plane";
-  return {"The view is taken as it is, also in motion, after " + short_number(hold_s) + " s" + near + others + ".",
-          "Searching", "Hold still", false};
+  const std::string after = short_number(hold_s) + " s" + near + others;
+  StepWords words{{}, "Searching", "Hold still", false};
+  words.prompt = "The view is taken as it is, also in motion, after " + after + ".";
+  return words;
 }
 
 std::shared_ptr<const StepTask> FindView::read(const TomlTable& table, const Step& step) {

@@ -70,7 +70,7 @@ TEST_CASE("the edge between fat and organ has no dark outline") {
       }
 }
 
-TEST_CASE("a thin layer of fluid's density between fat and an organ is no fluid, and a thick one is") {
+TEST_CASE("a thin layer of fluid's density between fat and an organ is tissue, and a thick one fluid") {
   // Along x; three voxels of 3 mm are 9 mm.
   const auto amid = [](double spacing_mm, double layer_mm, int before, int after) {
     const auto ct = along_x({int(60 / spacing_mm), 9, 9}, spacing_mm, [&](double x) {
